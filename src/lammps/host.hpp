@@ -1,0 +1,36 @@
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <mpi.h>
+
+namespace LAMMPS_NS {
+class LAMMPS;
+}
+
+namespace hemomag::lammps {
+
+/// One LAMMPS instance that knows the hemo styles. LAMMPS's fatal errors end the process through MPI_Abort,
+/// as in LAMMPS itself: check input before it gets here.
+class Host {
+ public:
+  /// @param arguments  LAMMPS command-line options, without the program name, e.g. {"-screen", "none"}
+  Host(std::vector<std::string> arguments, MPI_Comm comm);
+  ~Host();
+  Host(const Host&) = delete;
+  Host& operator=(const Host&) = delete;
+
+  LAMMPS_NS::LAMMPS& lammps() { return *lmp_; }
+
+  /// Execute one line of LAMMPS input.
+  void command(const std::string& line);
+  /// Execute a script file, or standard input as given by `-in` when `path` is empty.
+  void script(const std::string& path = {});
+
+ private:
+  std::vector<std::string> arguments_;  // LAMMPS keeps pointers into these
+  std::unique_ptr<LAMMPS_NS::LAMMPS> lmp_;
+};
+
+}  // namespace hemomag::lammps
