@@ -19,3 +19,22 @@ function(hemo_room name)
     target_link_libraries(hemo_${name} INTERFACE hemo_flags ${ROOM_DEPENDS})
   endif()
 endfunction()
+
+# hemo_simd(ROOM FILE): compile FILE once per instruction set into the room's library. The file puts everything
+# it defines into the namespace HEMOMAG_SIMD (sse2, avx2 or avx512) and may use no inline function that another
+# file could share, or the linker might keep the copy that an older processor cannot run.
+function(hemo_simd room file)
+  set(flags_sse2 "")
+  set(flags_avx2 -mavx2 -mfma)
+  set(flags_avx512 -mavx512f -mavx512dq -mavx512vl -mavx512bw -mfma -mprefer-vector-width=512)
+  foreach(level sse2 avx2 avx512)
+    get_filename_component(stem ${file} NAME_WE)
+    set(target hemo_${room}_${stem}_${level})
+    add_library(${target} OBJECT ${file})
+    target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/src)
+    target_link_libraries(${target} PRIVATE hemo_flags)
+    target_compile_definitions(${target} PRIVATE HEMOMAG_SIMD=${level} HEMOMAG_SIMD_${level})
+    target_compile_options(${target} PRIVATE ${flags_${level}} -ffp-contract=fast -fno-signed-zeros -Wno-psabi)
+    target_sources(hemo_${room} PRIVATE $<TARGET_OBJECTS:${target}>)
+  endforeach()
+endfunction()
