@@ -1,0 +1,36 @@
+# make demo    install what is missing, build, run the margination demo on 2 ranks
+# make check   install what is missing, build, run every quick test
+# make build   only build
+BUILD ?= build
+TYPE  ?= Release
+RANKS ?= 2
+
+# Open MPI refuses root and more ranks than cores unless told otherwise.
+ifeq ($(shell id -u),0)
+export OMPI_ALLOW_RUN_AS_ROOT = 1
+export OMPI_ALLOW_RUN_AS_ROOT_CONFIRM = 1
+endif
+demo: MPI_OPTIONS = $(shell [ "$$(nproc)" -ge $(RANKS) ] || echo --oversubscribe)
+check: export OMPI_MCA_rmaps_base_oversubscribe = 1
+check: export OMPI_MCA_hwloc_base_binding_policy = none
+check: export OMPI_MCA_mpi_yield_when_idle = 1
+
+.PHONY: all bootstrap build demo check clean
+all: build
+
+bootstrap:
+	@tools/bootstrap
+
+build: bootstrap
+	@cmake -S . -B $(BUILD) -G Ninja -DCMAKE_BUILD_TYPE=$(TYPE) >$(BUILD).log 2>&1 || { cat $(BUILD).log; exit 1; }
+	@rm -f $(BUILD).log
+	@cmake --build $(BUILD)
+
+demo: build
+	mpirun $(MPI_OPTIONS) -np $(RANKS) $(BUILD)/bin/hemomag run examples/margination_demo.toml --force
+
+check: build
+	ctest --test-dir $(BUILD) -L quick --output-on-failure --no-tests=error -j $$(nproc)
+
+clean:
+	rm -rf $(BUILD)
