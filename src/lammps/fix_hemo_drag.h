@@ -1,0 +1,67 @@
+// clang-format off
+#ifdef FIX_CLASS
+FixStyle(hemo/drag,FixHemoDrag)
+#else
+// clang-format on
+
+#ifndef LMP_FIX_HEMO_DRAG_H
+#define LMP_FIX_HEMO_DRAG_H
+
+#include <vector>
+
+#include "fix.h"
+
+namespace LAMMPS_NS {
+
+class FixHemoFluid;
+class PairHemoDipole;
+
+/// `fix hemo/drag`: carriers, overdamped, with the stiff forces between them sub-stepped
+/// (docs/styles/fix_hemo_drag.md).
+class FixHemoDrag : public Fix {
+ public:
+  FixHemoDrag(LAMMPS*, int, char**);
+  ~FixHemoDrag() override;
+  int setmask() override;
+  void init() override;
+  void setup(int) override;
+  void initial_integrate(int) override;
+  void post_force(int) override;
+  double compute_scalar() override { return substeps_; }
+  double memory_usage() override;
+
+  void grow_arrays(int) override;
+  void copy_arrays(int, int, int) override;
+  void set_arrays(int) override;
+  int pack_exchange(int, double*) override;
+  int unpack_exchange(int, double*) override;
+  int pack_forward_comm(int, int*, double*, int, int*) override;
+  void unpack_forward_comm(int, int, double*) override;
+  int pack_reverse_comm(int, int, double*) override;
+  void unpack_reverse_comm(int, int*, double*) override;
+
+  bool feedback() const { return feedback_; }
+
+ private:
+  double bare_friction(double radius) const;
+  void choose_substeps();
+  void stiff_forces();
+
+  static constexpr int most_substeps = 16;
+
+  std::vector<double> radius_;    // by type, 0: not a carrier
+  std::vector<double> mobility_;  // 1/Gamma_bare by type
+  bool feedback_ = true;
+  int substeps_ = 1;
+  bigint chosen_at_ = -1;  // step of the neighbour list for which substeps_ was chosen
+  bool started_ = false;   // mean_stiff_ holds the force of the last step
+  FixHemoFluid* fluid_ = nullptr;
+  PairHemoDipole* dipoles_ = nullptr;
+  double** mean_stiff_ = nullptr;  // stiff force of the last step, as already contained in f
+  double** stiff_ = nullptr;       // of the present sub-step, owned and ghost
+};
+
+}  // namespace LAMMPS_NS
+
+#endif
+#endif

@@ -1,0 +1,229 @@
+#include "lammps/fix_hemo_fluid.h"
+
+#include <cmath>
+#include <cstring>
+#include <string>
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "force.h"
+#include "modify.h"
+#include "neighbor.h"
+#include "update.h"
+#include "utils.h"
+
+#include "lammps/compat.hpp"
+#include "lammps/fix_hemo_drag.h"
+#include "solver/fluid_solver.hpp"
+
+using namespace LAMMPS_NS;
+using hemomag::Vec3;
+using hemomag::solver::FluidSolver;
+
+FixHemoFluid::FixHemoFluid(LAMMPS* lmp, int narg, char** arg)
+    : Fix(lmp, narg, arg), parameters_(std::make_unique<hemomag::solver::FluidParameters>()) {
+  scalar_flag = vector_flag = 1;
+  size_vector = 15;
+  global_freq = 1;
+  extscalar = extvector = 1;
+  for (int at = 3; at < narg;) at = parse_keyword(narg, arg, at);
+}
+
+FixHemoFluid::~FixHemoFluid() = default;
+
+int FixHemoFluid::parse_keyword(int narg, char** arg, int at) {
+  const std::string key = arg[at++];
+  const auto next = [&]() -> const char* {
+    if (at >= narg) error->all(FLERR, "fix hemo/fluid: " + key + " needs more values");
+    return arg[at++];
+  };
+  const auto number = [&] { return utils::numeric(FLERR, next(), false, lmp); };
+  const auto vector = [&] {
+    const double x = number(), y = number(), z = number();
+    return Vec3{x, y, z};
+  };
+  const auto expect = [&](const char* word) {
+    if (std::string(next()) != word)
+      error->all(FLERR, "fix hemo/fluid: plates AXIS lower VX VY VZ upper VX VY VZ is expected");
+  };
+  auto& p = *parameters_;
+  if (key == "tau") {
+    p.relaxation.tau = number();
+    if (p.relaxation.tau <= 0.5)
+      error->all(FLERR, "fix hemo/fluid: tau = " + std::to_string(p.relaxation.tau) +
+                            " is unstable, need tau > 0.5 (raise the viscosity or lower dt)");
+  } else if (key == "scheme") {
+    const std::string scheme = next();
+    if (scheme != "trt")
+      error->all(FLERR, "fix hemo/fluid: scheme " + scheme + " is not available; accepted: trt");
+  } else if (key == "magic") {
+    p.relaxation.magic = number();
+    if (p.relaxation.magic <= 0) error->all(FLERR, std::string("fix hemo/fluid: magic must be > 0"));
+  } else if (key == "kernel") {
+    hemomag::lammps::or_fail(lmp, FLERR, [&] { p.kernel = hemomag::ibm::delta_kernel(next()); });
+  } else if (key == "plates") {
+    const std::string axis = next();
+    if (axis != "x" && axis != "y" && axis != "z")
+      error->all(FLERR, "fix hemo/fluid: plates " + axis + ": the axis must be x, y or z");
+    p.plate_axis = axis[0] - 'x';
+    expect("lower");
+    p.plate_velocity[0] = vector();
+    expect("upper");
+    p.plate_velocity[1] = vector();
+  } else if (key == "force") {
+    const Vec3 g = vector();
+    for (std::size_t d = 0; d < 3; ++d) p.relaxation.force[d] = g[d];
+  } else if (key == "initial") {
+    const std::string how = next();
+    if (how != "rest" && how != "linear")
+      error->all(FLERR, "fix hemo/fluid: initial " + how + " is unknown; accepted: rest, linear");
+    initial_ = how == "rest" ? Initial::rest : Initial::linear;
+  } else {
+    error->all(FLERR, "fix hemo/fluid: unknown keyword " + key +
+                          "; accepted: tau, scheme, magic, kernel, plates, force, initial");
+  }
+  return at;
+}
+
+int FixHemoFluid::setmask() { return FixConst::POST_FORCE; }
+
+void FixHemoFluid::init() {
+  require_place_in_script();
+  if (!solver_) create_solver();
+  one_way_bits_ = 0;
+  if (const auto* drag = hemomag::lammps::find_fix<FixHemoDrag>(lmp, "hemo/drag"))
+    if (!drag->feedback()) one_way_bits_ = drag->groupbit;
+}
+
+void FixHemoFluid::require_place_in_script() const {
+  if (update->dt != 1.0)
+    error->all(FLERR, std::string("fix hemo/fluid: lattice units need `timestep 1.0`"));
+  if (!force->newton_pair || !force->newton_bond)
+    error->all(FLERR, std::string("fix hemo/fluid needs `newton on`"));
+  if (comm->layout != Comm::LAYOUT_UNIFORM || comm->style != 0)
+    error->all(FLERR, std::string("fix hemo/fluid: the fluid needs equal bricks; load balancing sees atoms "
+                                  "only and is refused"));
+  bool after = false;
+  for (int i = 0; i < modify->nfix; ++i) {
+    if (modify->fix[i] == this)
+      after = true;
+    else if (after && (modify->fmask[i] & FixConst::POST_FORCE))
+      error->all(FLERR, "fix hemo/fluid must be the last fix that adds forces: define it after fix " +
+                            std::string(modify->fix[i]->id));
+  }
+}
+
+void FixHemoFluid::create_solver() {
+  hemomag::solver::Neighbourhood at;
+  at.comm = world;
+  at.rank = comm->me;
+  if (domain->triclinic) error->all(FLERR, std::string("fix hemo/fluid needs an orthogonal box"));
+  for (int d = 0; d < 3; ++d) {
+    const double nodes = domain->boxhi[d] - domain->boxlo[d];
+    const int n = static_cast<int>(std::lround(nodes));
+    if (domain->boxlo[d] != 0.0 || std::fabs(nodes - n) > 1e-9 || n < 1)
+      error->all(FLERR, std::string("fix hemo/fluid: the box must run from 0 to a whole number of nodes along ") +
+                            "xyz"[d]);
+    const bool plate = parameters_->plate_axis == d;
+    if (plate == (domain->periodicity[d] != 0))
+      error->all(FLERR, std::string("fix hemo/fluid: axis ") + "xyz"[d] +
+                            (plate ? " has plates and must have `boundary f`"
+                                   : " has no plates and must be periodic"));
+    at.block.global[d] = n;
+    at.block.begin[d] = hemomag::lattice::first_node(n, comm->procgrid[d], comm->myloc[d]);
+    at.block.size[d] =
+        hemomag::lattice::first_node(n, comm->procgrid[d], comm->myloc[d] + 1) - at.block.begin[d];
+    for (int side = 0; side < 2; ++side) {
+      const bool end = comm->myloc[d] == (side == 0 ? 0 : comm->procgrid[d] - 1);
+      at.neighbour[d][side] = plate && end ? MPI_PROC_NULL : comm->procneigh[d][side];
+    }
+  }
+  parameters_->reach_beyond_block = 0.5 * neighbor->skin;
+  hemomag::lammps::or_fail(lmp, FLERR, [&] { solver_ = std::make_unique<FluidSolver>(at, *parameters_); });
+
+  const int axis = parameters_->plate_axis;
+  const Vec3 low = parameters_->plate_velocity[0], high = parameters_->plate_velocity[1];
+  solver_->initialise([&](const Vec3& position) {
+    std::pair<Vec3, hemomag::fluid::VelocityGradient> flow;
+    if (initial_ == Initial::linear && axis >= 0) {
+      const auto a = static_cast<std::size_t>(axis);
+      flow.second[a] = (high - low) / at.block.global[axis];
+      flow.first = low + position[a] * flow.second[a];
+    }
+    return flow;
+  });
+}
+
+void FixHemoFluid::setup(int vflag) {
+  // A second `run` continues where the first stopped: this step's fluid has been done already.
+  if (done_step_ != update->ntimestep) post_force(vflag);
+}
+
+void FixHemoFluid::post_force(int) {
+  const auto n = static_cast<std::size_t>(atom->nlocal);
+  solver_->clear_forces();
+  if (n > 0) {
+    const std::span<const Vec3> x(reinterpret_cast<const Vec3*>(atom->x[0]), n);
+    const std::span<const Vec3> f(reinterpret_cast<const Vec3*>(atom->f[0]), n);
+    const auto lost = solver_->spread(x, {{atom->mask, n}, groupbit, one_way_bits_}, f);
+    if (lost >= 0) lost_point(lost, "spreading its force");
+  }
+  solver_->step();
+  done_step_ = update->ntimestep;
+}
+
+void FixHemoFluid::velocity_at_atoms(int bits, double** v) {
+  const auto n = static_cast<std::size_t>(atom->nlocal);
+  if (n == 0) return;
+  const std::span<const Vec3> x(reinterpret_cast<const Vec3*>(atom->x[0]), n);
+  const auto lost = solver_->interpolate(x, {{atom->mask, n}, bits, 0},
+                                         {reinterpret_cast<Vec3*>(v[0]), n});
+  if (lost >= 0) lost_point(lost, "reading the fluid's velocity");
+}
+
+void FixHemoFluid::lost_point(long i, const char* doing) const {
+  const double* x = atom->x[i];
+  error->one(FLERR, "fix hemo/fluid: step " + std::to_string(update->ntimestep) + ", rank " +
+                        std::to_string(comm->me) + ": atom " + std::to_string(atom->tag[i]) + " at " +
+                        std::to_string(x[0]) + " " + std::to_string(x[1]) + " " + std::to_string(x[2]) +
+                        " is outside the channel or not finite while " + doing +
+                        " (forces too strong for the time step?)");
+}
+
+FluidSolver& FixHemoFluid::solver() {
+  if (!solver_) error->all(FLERR, std::string("fix hemo/fluid is not initialised yet"));
+  return *solver_;
+}
+
+double FixHemoFluid::viscosity() const { return parameters_->relaxation.viscosity(); }
+
+double FixHemoFluid::point_radius() const { return hemomag::ibm::hydrodynamic_radius(parameters_->kernel); }
+
+double FixHemoFluid::compute_scalar() {
+  double mine = solver_->excess_mass(), all = 0;
+  MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, world);
+  const auto& n = solver_->block().global;
+  return all + static_cast<double>(n[0]) * n[1] * n[2];
+}
+
+/// 1-3 fluid momentum, 4-6 force on nodes, 7-9 plates' share of the spread force, 10-12 and 13-15 momentum that
+/// bounce-back gave to the low and to the high plate, all in the last step.
+double FixHemoFluid::compute_vector(int k) {
+  const auto d = static_cast<std::size_t>(k % 3);
+  Vec3 mine;
+  switch (k / 3) {
+    case 0: mine = solver_->momentum(); break;
+    case 1: mine = solver_->node_force(); break;
+    case 2: mine = solver_->plate_share(); break;
+    default: mine = solver_->plate_momentum()[static_cast<std::size_t>(k / 3 - 3)];
+  }
+  double sum = 0;
+  MPI_Allreduce(&mine[d], &sum, 1, MPI_DOUBLE, MPI_SUM, world);
+  return sum;
+}
+
+double FixHemoFluid::memory_usage() {
+  return solver_ ? static_cast<double>(solver_->bytes()) : 0.0;
+}
