@@ -46,7 +46,7 @@ int FixHemoFluid::parse_keyword(int narg, char** arg, int at) {
   };
   const auto expect = [&](const char* word) {
     if (std::string(next()) != word)
-      error->all(FLERR, "fix hemo/fluid: plates AXIS lower VX VY VZ upper VX VY VZ is expected");
+      error->all(FLERR, std::string("fix hemo/fluid: plates AXIS lower VX VY VZ upper VX VY VZ is expected"));
   };
   auto& p = *parameters_;
   if (key == "tau") {

@@ -4,6 +4,16 @@
 #include "lammps.h"
 #include "modify.h"
 
+#include "lammps/angle_hemo_membrane.h"
+#include "lammps/bond_hemo_wlc.h"
+#include "lammps/dihedral_hemo_bend.h"
+#include "lammps/fix_hemo_advect.h"
+#include "lammps/fix_hemo_drag.h"
+#include "lammps/fix_hemo_field.h"
+#include "lammps/fix_hemo_fluid.h"
+#include "lammps/pair_hemo_contact.h"
+#include "lammps/pair_hemo_dipole.h"
+
 namespace hemomag::lammps {
 namespace {
 
@@ -30,7 +40,15 @@ void register_styles(LAMMPS_NS::LAMMPS& lmp) {
   [[maybe_unused]] auto& angles = *lmp.force->angle_map;
   [[maybe_unused]] auto& dihedrals = *lmp.force->dihedral_map;
 
-  // One line a style.
+  fixes["hemo/advect"] = new_fix<LAMMPS_NS::FixHemoAdvect>;
+  fixes["hemo/drag"] = new_fix<LAMMPS_NS::FixHemoDrag>;
+  fixes["hemo/field"] = new_fix<LAMMPS_NS::FixHemoField>;
+  fixes["hemo/fluid"] = new_fix<LAMMPS_NS::FixHemoFluid>;
+  pairs["hemo/contact"] = new_force<LAMMPS_NS::Pair, LAMMPS_NS::PairHemoContact>;
+  pairs["hemo/dipole"] = new_force<LAMMPS_NS::Pair, LAMMPS_NS::PairHemoDipole>;
+  bonds["hemo/wlc"] = new_force<LAMMPS_NS::Bond, LAMMPS_NS::BondHemoWLC>;
+  angles["hemo/membrane"] = new_force<LAMMPS_NS::Angle, LAMMPS_NS::AngleHemoMembrane>;
+  dihedrals["hemo/bend"] = new_force<LAMMPS_NS::Dihedral, LAMMPS_NS::DihedralHemoBend>;
 }
 
 }  // namespace hemomag::lammps

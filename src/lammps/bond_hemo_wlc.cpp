@@ -1,0 +1,104 @@
+#include "lammps/bond_hemo_wlc.h"
+
+#include <cmath>
+#include <string>
+
+#include "atom.h"
+#include "comm.h"
+#include "error.h"
+#include "force.h"
+#include "memory.h"
+#include "neighbor.h"
+#include "update.h"
+#include "utils.h"
+
+#include "base/vec3.hpp"
+
+using namespace LAMMPS_NS;
+using hemomag::Vec3;
+
+BondHemoWLC::BondHemoWLC(LAMMPS* lmp) : Bond(lmp) { writedata = 1; }
+
+BondHemoWLC::~BondHemoWLC() {
+  if (allocated) memory->destroy(setflag);
+}
+
+void BondHemoWLC::allocate() {
+  allocated = 1;
+  memory->create(setflag, atom->nbondtypes + 1, "bond:setflag");
+  for (int type = 1; type <= atom->nbondtypes; ++type) setflag[type] = 0;
+  coefficients_.resize(atom->nbondtypes);
+  spring_.resize(static_cast<std::size_t>(atom->nbondtypes) + 1);
+}
+
+void BondHemoWLC::coeff(int narg, char** arg) {
+  if (!allocated) allocate();
+  if (narg != 1 + columns)
+    error->all(FLERR, std::string("bond_style hemo/wlc: a type needs kBT x0 l_max mu0 m gammaC gammaT"));
+  int lo = 0, hi = 0;
+  utils::bounds(FLERR, std::string(arg[0]), 1, atom->nbondtypes, lo, hi, error);
+  for (int type = lo; type <= hi; ++type) {
+    for (std::size_t c = 0; c < columns; ++c)
+      coefficients_[type][c] = utils::numeric(FLERR, arg[c + 1], false, lmp);
+    derive(type);
+  }
+}
+
+void BondHemoWLC::derive(int type) {
+  const auto& c = coefficients_[type];
+  if (!(c[x0] > 0 && c[x0] < 1) || !(c[l_max] > 0) || !(c[mu0] > 0) || !(c[exponent] > 1))
+    error->all(FLERR, "bond_style hemo/wlc: type " + std::to_string(type) +
+                          " needs 0 < x0 < 1, l_max > 0, mu0 > 0 and m > 1");
+  spring_[static_cast<std::size_t>(type)] =
+      hemomag::membrane::make_spring(c[x0], c[l_max], c[mu0], c[exponent]);
+  setflag[type] = 1;
+}
+
+void BondHemoWLC::compute(int eflag, int vflag) {
+  ev_init(eflag, vflag);
+  const auto* x = reinterpret_cast<const Vec3*>(atom->x[0]);
+  auto* f = reinterpret_cast<Vec3*>(atom->f[0]);
+  int** list = neighbor->bondlist;
+  for (int n = 0; n < neighbor->nbondlist; ++n) {
+    const int i = list[n][0], j = list[n][1];
+    const auto& spring = spring_[static_cast<std::size_t>(list[n][2])];
+    const Vec3 d = x[i] - x[j];
+    const double l = norm(d);
+    if (!(l < spring.l_max)) overstretched(i, j, l, spring.l_max);
+    const double pull = -tension(spring, l) / l;
+    f[i] += pull * d;
+    f[j] -= pull * d;
+    if (evflag)
+      ev_tally(i, j, atom->nlocal, force->newton_bond, eflag ? hemomag::membrane::energy(spring, l) : 0.0, pull,
+               d.x, d.y, d.z);
+  }
+}
+
+void BondHemoWLC::overstretched(int i, int j, double length, double limit) const {
+  error->one(FLERR, "bond_style hemo/wlc: step " + std::to_string(update->ntimestep) + ", rank " +
+                        std::to_string(comm->me) + ": the edge between atoms " + std::to_string(atom->tag[i]) +
+                        " and " + std::to_string(atom->tag[j]) + " is " + std::to_string(length) +
+                        " long, its limit is " + std::to_string(limit) +
+                        " (forces too strong, or the time step too long)");
+}
+
+double BondHemoWLC::equilibrium_distance(int type) {
+  return coefficients_[type][x0] * coefficients_[type][l_max];
+}
+
+void BondHemoWLC::write_restart(FILE* file) { coefficients_.write(file); }
+
+void BondHemoWLC::read_restart(FILE* file) {
+  allocate();
+  coefficients_.read(file, comm->me, world, error);
+  for (int type = 1; type <= atom->nbondtypes; ++type) derive(type);
+}
+
+void BondHemoWLC::write_data(FILE* file) { coefficients_.write_data(file); }
+
+double BondHemoWLC::single(int type, double rsq, int, int, double& fforce) {
+  const auto& spring = spring_[static_cast<std::size_t>(type)];
+  const double l = std::sqrt(rsq);
+  fforce = -tension(spring, l) / l;
+  return hemomag::membrane::energy(spring, l);
+}

@@ -1,0 +1,55 @@
+// clang-format off
+#ifdef FIX_CLASS
+FixStyle(hemo/field,FixHemoField)
+#else
+// clang-format on
+
+#ifndef LMP_FIX_HEMO_FIELD_H
+#define LMP_FIX_HEMO_FIELD_H
+
+#include <vector>
+
+#include "fix.h"
+
+#include "magnetic/field.hpp"
+
+namespace LAMMPS_NS {
+
+/// `fix hemo/field`: external field, induced moments and (m.grad)B (docs/styles/fix_hemo_field.md).
+class FixHemoField : public Fix {
+ public:
+  FixHemoField(LAMMPS*, int, char**);
+  ~FixHemoField() override;
+  int setmask() override;
+  void setup_pre_force(int) override;
+  void setup(int) override;
+  void pre_force(int) override;
+  void post_force(int) override;
+  double compute_scalar() override;
+  double compute_vector(int) override;
+  double memory_usage() override;
+
+  void grow_arrays(int) override;
+  void copy_arrays(int, int, int) override;
+  void set_arrays(int) override;
+  int pack_exchange(int, double*) override;
+  int unpack_exchange(int, double*) override;
+  int pack_forward_comm(int, int*, double*, int, int*) override;
+  void unpack_forward_comm(int, int, double*) override;
+
+  /// Moments of owned and ghost carriers, [nmax][3]; valid from pre_force on. Zero for other atoms.
+  double** moments() { return moment_; }
+
+ private:
+  int parse_field(int narg, char** arg, int at);
+
+  std::vector<double> chi_volume_;  // by type
+  hemomag::magnetic::Field field_ = hemomag::magnetic::NoField{};
+  double** moment_ = nullptr;
+  double sums_[4] = {};  // energy, force, on this rank in the last step
+};
+
+}  // namespace LAMMPS_NS
+
+#endif
+#endif
