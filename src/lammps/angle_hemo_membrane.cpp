@@ -60,9 +60,9 @@ void AngleHemoMembrane::check(int type) const {
 void AngleHemoMembrane::init_style() {
   if (domain->triclinic) error->all(FLERR, std::string("angle_style hemo/membrane needs an orthogonal box"));
   if (!force->newton_bond) error->all(FLERR, std::string("angle_style hemo/membrane needs `newton on`"));
-  if (!oriented_ && atom->ndihedrals > 0) {
-    const bigint turned = hemomag::lammps::orient_triangles(*lmp);
-    if (turned > 0)
+  if (!oriented_) {
+    const bigint turned = hemomag::lammps::orient_triangles(*lmp, setflag);
+    if (turned > 0 && comm->me == 0)
       utils::logmesg(lmp, "angle_style hemo/membrane: turned " + std::to_string(turned) +
                               " triangles that were listed inside out\n");
   }

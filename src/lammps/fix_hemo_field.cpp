@@ -21,7 +21,7 @@ FixHemoField::FixHemoField(LAMMPS* lmp, int narg, char** arg)
   scalar_flag = vector_flag = 1;
   size_vector = 3;
   global_freq = 1;
-  extscalar = extvector = 1;
+  extscalar = extvector = 0;  // totals: not to be divided by the number of atoms
   comm_forward = 3;
   for (int at = 3; at < narg;) {
     const std::string key = arg[at];

@@ -27,7 +27,7 @@ FixHemoFluid::FixHemoFluid(LAMMPS* lmp, int narg, char** arg)
   scalar_flag = vector_flag = 1;
   size_vector = 15;
   global_freq = 1;
-  extscalar = extvector = 1;
+  extscalar = extvector = 0;  // totals: not to be divided by the number of atoms
   for (int at = 3; at < narg;) at = parse_keyword(narg, arg, at);
 }
 

@@ -1,59 +1,59 @@
 #include "lammps/orient_triangles.hpp"
 
-#include <algorithm>
 #include <array>
-#include <set>
+#include <cstdint>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "atom.h"
 #include "comm.h"
 #include "lammps.h"
 
+#include "membrane/orientation.hpp"
 #include "solver/rendezvous.hpp"
 
 namespace hemomag::lammps {
 namespace {
 
-using LAMMPS_NS::tagint;
-using Triple = std::array<tagint, 3>;
+struct Listed {
+  std::int64_t cell;
+  std::array<std::int64_t, 3> triangle;
+};
 
-/// The same orientation with the smallest tag first.
-Triple canonical(Triple t) {
-  std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-  return t;
-}
+struct Place {
+  int atom, angle;
+};
 
 }  // namespace
 
-LAMMPS_NS::bigint orient_triangles(LAMMPS_NS::LAMMPS& lmp) {
+LAMMPS_NS::bigint orient_triangles(LAMMPS_NS::LAMMPS& lmp, const int* is_triangle) {
   auto& atom = *lmp.atom;
   const auto ranks = static_cast<std::size_t>(lmp.comm->nprocs);
-  const auto keeper = [&](const Triple& t) { return static_cast<std::size_t>(t[0]) % ranks; };
-
-  std::vector<std::vector<Triple>> outward(ranks), ask(ranks);
-  struct Place {
-    int atom, angle;
-  };
+  std::vector<std::vector<Listed>> ask(ranks);
   std::vector<std::vector<Place>> asked_for(ranks);
-  for (int i = 0; i < atom.nlocal; ++i) {
-    for (int n = 0; n < atom.num_dihedral[i]; ++n) {
-      const tagint t1 = atom.dihedral_atom1[i][n], t2 = atom.dihedral_atom2[i][n],
-                   t3 = atom.dihedral_atom3[i][n], t4 = atom.dihedral_atom4[i][n];
-      for (const Triple& t : {canonical({t1, t2, t3}), canonical({t4, t3, t2})}) outward[keeper(t)].push_back(t);
-    }
+  for (int i = 0; i < atom.nlocal; ++i)
     for (int n = 0; n < atom.num_angle[i]; ++n) {
-      const Triple t = canonical({atom.angle_atom1[i][n], atom.angle_atom2[i][n], atom.angle_atom3[i][n]});
-      ask[keeper(t)].push_back(t);
-      asked_for[keeper(t)].push_back({i, n});
+      if (!is_triangle[atom.angle_type[i][n]]) continue;
+      const auto keeper = static_cast<std::size_t>(atom.molecule[i]) % ranks;
+      ask[keeper].push_back(
+          {atom.molecule[i], {atom.angle_atom1[i][n], atom.angle_atom2[i][n], atom.angle_atom3[i][n]}});
+      asked_for[keeper].push_back({i, n});
     }
-  }
-  std::set<Triple> known;
-  for (const auto& part : solver::exchange_by_rank(lmp.world, outward)) known.insert(part.begin(), part.end());
+
+  const auto asked = solver::exchange_by_rank(lmp.world, ask);
+  std::map<std::int64_t, std::vector<std::pair<std::size_t, std::size_t>>> cells;  // (rank, question)
   std::vector<std::vector<char>> answer(ranks);
-  const auto questions = solver::exchange_by_rank(lmp.world, ask);
-  for (std::size_t r = 0; r < ranks; ++r)
-    for (const Triple& t : questions[r])
-      answer[r].push_back(!known.contains(t) && known.contains({t[0], t[2], t[1]}));
+  for (std::size_t r = 0; r < ranks; ++r) {
+    answer[r].resize(asked[r].size());
+    for (std::size_t k = 0; k < asked[r].size(); ++k) cells[asked[r][k].cell].push_back({r, k});
+  }
+  for (const auto& [cell, questions] : cells) {
+    std::vector<std::array<std::int64_t, 3>> triangles;
+    for (const auto& [r, k] : questions) triangles.push_back(asked[r][k].triangle);
+    const auto turn = membrane::triangles_to_turn(triangles);
+    for (std::size_t q = 0; q < questions.size(); ++q) answer[questions[q].first][questions[q].second] = turn[q];
+  }
 
   const auto turn = solver::exchange_by_rank(lmp.world, answer);
   LAMMPS_NS::bigint mine = 0, all = 0;
