@@ -1,7 +1,7 @@
 #include "lammps/fix_hemo_fluid.h"
 
 #include <cmath>
-#include <cstring>
+#include <span>
 #include <string>
 
 #include "atom.h"
@@ -162,14 +162,15 @@ void FixHemoFluid::setup(int vflag) {
 }
 
 void FixHemoFluid::post_force(int) {
+  // Every rank spreads, also one without atoms: the halo sum that follows is collective.
   const auto n = static_cast<std::size_t>(atom->nlocal);
+  const auto vectors = [n](double** rows) {
+    return std::span<const Vec3>(n > 0 ? reinterpret_cast<const Vec3*>(rows[0]) : nullptr, n);
+  };
   solver_->clear_forces();
-  if (n > 0) {
-    const std::span<const Vec3> x(reinterpret_cast<const Vec3*>(atom->x[0]), n);
-    const std::span<const Vec3> f(reinterpret_cast<const Vec3*>(atom->f[0]), n);
-    const auto lost = solver_->spread(x, {{atom->mask, n}, groupbit, one_way_bits_}, f);
-    if (lost >= 0) lost_point(lost, "spreading its force");
-  }
+  const auto lost =
+      solver_->spread(vectors(atom->x), {{atom->mask, n}, groupbit, one_way_bits_}, vectors(atom->f));
+  if (lost >= 0) lost_point(lost, "spreading its force");
   solver_->step();
   done_step_ = update->ntimestep;
 }

@@ -39,7 +39,7 @@ class FluidSolver {
   void initialise(Field velocity_and_gradient);
 
   void clear_forces();
-  /// Eqs. 29, 36. @return index of the first point that left the halo, or -1
+  /// Eqs. 29, 36. Collective: a rank without points calls it with none. @return index of the first point that left the halo, or -1
   std::ptrdiff_t spread(std::span<const Vec3> x, const ibm::Selection& selection, std::span<const Vec3> f);
   /// Sum the forces of all ranks, collide, stream, bounce; leaves the new velocity on block and halo.
   void step();
