@@ -186,6 +186,18 @@ void AngleHemoMembrane::tally(const Triangle& t, const Vec3& unit, double area_p
            d2.y, d2.z);
 }
 
+AngleHemoMembrane::Surface AngleHemoMembrane::surface() const {
+  Surface s;
+  if (triangles_.empty()) return s;
+  const auto* x = reinterpret_cast<const Vec3*>(atom->x[0]);
+  for (const auto& t : triangles_) {
+    s.triangles.push_back({{x[t.i] + t.unwrap, x[t.j] + t.unwrap, x[t.k] + t.unwrap},
+                           {atom->tag[t.i], atom->tag[t.j], atom->tag[t.k]}});
+    s.molecule.push_back(cells_[t.cell].molecule);
+  }
+  return s;
+}
+
 void AngleHemoMembrane::write_restart(FILE* file) { coefficients_.write(file); }
 
 void AngleHemoMembrane::read_restart(FILE* file) {

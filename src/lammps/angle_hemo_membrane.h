@@ -12,6 +12,7 @@ AngleStyle(hemo/membrane,AngleHemoMembrane)
 
 #include "angle.h"
 
+#include "analysis/inside.hpp"
 #include "base/vec3.hpp"
 #include "lammps/coefficients.hpp"
 #include "solver/cell_sums.hpp"
@@ -43,6 +44,13 @@ class AngleHemoMembrane : public Angle {
   double memory_usage() override;
 
   std::span<const CellState> cells() const { return cells_; }
+
+  /// This rank's triangles at the present positions, each cell in one piece, and the molecule each belongs to.
+  struct Surface {
+    std::vector<hemomag::analysis::SurfaceTriangle> triangles;
+    std::vector<tagint> molecule;
+  };
+  Surface surface() const;
 
  private:
   enum Column { Cq, q, k_a, A_t0, k_v, V_0, k_d, A_k0, columns };

@@ -6,11 +6,16 @@
 
 #include "lammps/angle_hemo_membrane.h"
 #include "lammps/bond_hemo_wlc.h"
+#include "lammps/compute_hemo_margination.h"
 #include "lammps/dihedral_hemo_bend.h"
 #include "lammps/fix_hemo_advect.h"
 #include "lammps/fix_hemo_drag.h"
 #include "lammps/fix_hemo_field.h"
 #include "lammps/fix_hemo_fluid.h"
+#include "lammps/fix_hemo_progress.h"
+#include "lammps/fix_hemo_series.h"
+#include "lammps/fix_hemo_snapshot.h"
+#include "lammps/fix_hemo_watch.h"
 #include "lammps/pair_hemo_contact.h"
 #include "lammps/pair_hemo_dipole.h"
 
@@ -33,17 +38,22 @@ Base* new_force(LAMMPS_NS::LAMMPS* lmp) {
 }  // namespace
 
 void register_styles(LAMMPS_NS::LAMMPS& lmp) {
-  [[maybe_unused]] auto& fixes = *lmp.modify->fix_map;
-  [[maybe_unused]] auto& computes = *lmp.modify->compute_map;
-  [[maybe_unused]] auto& pairs = *lmp.force->pair_map;
-  [[maybe_unused]] auto& bonds = *lmp.force->bond_map;
-  [[maybe_unused]] auto& angles = *lmp.force->angle_map;
-  [[maybe_unused]] auto& dihedrals = *lmp.force->dihedral_map;
+  auto& fixes = *lmp.modify->fix_map;
+  auto& computes = *lmp.modify->compute_map;
+  auto& pairs = *lmp.force->pair_map;
+  auto& bonds = *lmp.force->bond_map;
+  auto& angles = *lmp.force->angle_map;
+  auto& dihedrals = *lmp.force->dihedral_map;
 
   fixes["hemo/advect"] = new_fix<LAMMPS_NS::FixHemoAdvect>;
   fixes["hemo/drag"] = new_fix<LAMMPS_NS::FixHemoDrag>;
   fixes["hemo/field"] = new_fix<LAMMPS_NS::FixHemoField>;
   fixes["hemo/fluid"] = new_fix<LAMMPS_NS::FixHemoFluid>;
+  fixes["hemo/progress"] = new_fix<LAMMPS_NS::FixHemoProgress>;
+  fixes["hemo/series"] = new_fix<LAMMPS_NS::FixHemoSeries>;
+  fixes["hemo/snapshot"] = new_fix<LAMMPS_NS::FixHemoSnapshot>;
+  fixes["hemo/watch"] = new_fix<LAMMPS_NS::FixHemoWatch>;
+  computes["hemo/margination"] = new_compute<LAMMPS_NS::ComputeHemoMargination>;
   pairs["hemo/contact"] = new_force<LAMMPS_NS::Pair, LAMMPS_NS::PairHemoContact>;
   pairs["hemo/dipole"] = new_force<LAMMPS_NS::Pair, LAMMPS_NS::PairHemoDipole>;
   bonds["hemo/wlc"] = new_force<LAMMPS_NS::Bond, LAMMPS_NS::BondHemoWLC>;

@@ -1,0 +1,60 @@
+#pragma once
+#include <array>
+
+#include "case/case.hpp"
+
+namespace hemomag::case_ {
+
+inline constexpr double vacuum_permeability = 1.25663706212e-6;  ///< mu* [N/A2]
+inline constexpr double kBT = 4.14e-21;                          ///< thermal energy of Table 1 [J]
+inline constexpr double cell_diameter = 7.82e-6;                 ///< D0 of Eq. 13 [m]
+inline constexpr double cell_radius = 3.91e-6;                   ///< R in cell_reynolds [m]
+
+/// What one lattice unit is in SI. Below the case front-end dx = dt = density = mu* = 1.
+struct LatticeUnits {
+  double dx = 0;       ///< [m]
+  double dt = 0;       ///< [s]
+  double density = 0;  ///< [kg/m3]; the fluid's own times the inertia scaling
+
+  double mass() const { return density * dx * dx * dx; }
+  double velocity() const { return dx / dt; }
+  double tension() const { return mass() / (dt * dt); }           ///< [N/m]
+  double force() const { return tension() * dx; }                 ///< [N]
+  double energy() const { return force() * dx; }                  ///< [J]
+  double pressure() const { return tension() / dx; }              ///< [Pa]
+  double force_density() const { return pressure() / dx; }        ///< [N/m3]
+  double magnetic_field() const;                                  ///< [T], so that mu* = 1
+};
+
+/// The units of a case. tau and dx leave one freedom, fixed by dt, by cell_reynolds (rho = Re mu/(shear R^2)), or by
+/// the real density: nu_l = (tau - 1/2)/3, dt = nu_l dx^2 rho/mu.
+LatticeUnits lattice_units(const Case& c);
+
+/// Nodes along each axis; the reader has made sure that size/dx is whole.
+std::array<int, 3> nodes(const Case& c);
+
+/// Velocity of the lower and upper plate along y [m/s].
+std::array<double, 2> plate_velocity(const Case& c);
+
+/// Steps of the run, and of an interval of simulated time [s] (at least one).
+long steps(const Case& c);
+long steps_in(double interval, const LatticeUnits& units);
+
+/// chi V_c of a carrier bead [m3] (Eq. 22).
+double susceptible_volume(const Carrier& carrier);
+
+/// The gradient of |B| [T/m] and where the field vanishes [m] along its axis; the default is B0 (1 - z/H).
+struct GradientField {
+  double slope = 0;
+  double zero = 0;
+};
+GradientField gradient_field(const Case& c);
+
+/// Largest |B| in the channel [T].
+double strongest_field(const Case& c);
+
+/// Friction of a carrier bead [kg/s]: 6 pi mu a, and the bare one that the coupled scheme uses.
+double stokes_friction(const Case& c, const Carrier& carrier);
+double bare_friction(const Case& c, const Carrier& carrier);
+
+}  // namespace hemomag::case_

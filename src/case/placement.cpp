@@ -1,0 +1,262 @@
+#include "case/placement.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <string>
+
+#include "base/error.hpp"
+#include "case/lattice_units.hpp"
+#include "membrane/rest_shape.hpp"
+
+namespace hemomag::case_ {
+namespace {
+
+constexpr double cell_gap = 0.40e-6;          // between vertices of different cells [m]
+constexpr double plate_gap = 0.3e-6;          // cells from the plates
+constexpr double carrier_plate_gap = 0.25e-6;
+constexpr double carrier_cell_gap = 0.56e-6;  // the reach of the cell-carrier repulsion
+constexpr long most_tries = 1'000'000;
+
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : bits_(seed) {}
+  double uniform(double lo, double hi) { return lo + (hi - lo) * static_cast<double>(bits_() >> 11) * 0x1p-53; }
+  /// Uniform on the unit sphere.
+  Vec3 direction() {
+    const double z = uniform(-1, 1), phi = uniform(0, 2 * std::numbers::pi), r = std::sqrt(1 - z * z);
+    return {r * std::cos(phi), r * std::sin(phi), z};
+  }
+
+ private:
+  std::mt19937_64 bits_;
+};
+
+/// Distances in the channel: periodic along x and y, along z too without plates.
+class Box {
+ public:
+  explicit Box(const Case& c) : size(c.channel.size), periodic{true, true, c.channel.boundary == Boundary::periodic} {}
+  Vec3 nearest(Vec3 d) const {
+    for (std::size_t a = 0; a < 3; ++a)
+      if (periodic[a]) d[a] -= size[a] * std::round(d[a] / size[a]);
+    return d;
+  }
+  bool between_plates(const Vec3& x, double gap) const {
+    return periodic[2] || (x.z >= gap && x.z <= size[2] - gap);
+  }
+  std::array<double, 3> size;
+  std::array<bool, 3> periodic;
+};
+
+/// Points sorted into bins at least as wide as the distance that is asked about.
+class Bins {
+ public:
+  Bins(const Box& box, double reach) : box_(box), reach2_(reach * reach) {
+    for (std::size_t d = 0; d < 3; ++d) n_[d] = std::max(1, static_cast<int>(box.size[d] / reach));
+    bins_.resize(static_cast<std::size_t>(n_[0]) * static_cast<std::size_t>(n_[1]) * static_cast<std::size_t>(n_[2]));
+  }
+  void add(const Vec3& x) { bins_[bin(index(x, 0), index(x, 1), index(x, 2))].push_back(x); }
+  bool any_near(const Vec3& x) const {
+    const int i = index(x, 0), j = index(x, 1), k = index(x, 2);
+    for (int a = -1; a <= 1; ++a)
+      for (int b = -1; b <= 1; ++b)
+        for (int c = -1; c <= 1; ++c)
+          for (const Vec3& y : bins_[bin(i + a, j + b, k + c)])
+            if (norm2(box_.nearest(x - y)) < reach2_) return true;
+    return false;
+  }
+
+ private:
+  int index(const Vec3& x, std::size_t d) const {
+    return static_cast<int>(std::floor(x[d] / box_.size[d] * n_[d]));
+  }
+  std::size_t bin(int i, int j, int k) const {
+    const auto wrap = [](int a, int n) { return static_cast<std::size_t>((a % n + n) % n); };
+    return (wrap(k, n_[2]) * static_cast<std::size_t>(n_[1]) + wrap(j, n_[1])) * static_cast<std::size_t>(n_[0]) +
+           wrap(i, n_[0]);
+  }
+  Box box_;
+  double reach2_;
+  std::array<int, 3> n_{};
+  std::vector<std::vector<Vec3>> bins_;
+};
+
+/// Where a cell is and how it is turned: columns of the rotation.
+struct Pose {
+  Vec3 centre, ex, ey, ez;
+  Vec3 place(const Vec3& p) const { return centre + p.x * ex + p.y * ey + p.z * ez; }
+  bool inside(const Vec3& from_centre) const {
+    const double x = dot(from_centre, ex), y = dot(from_centre, ey), z = dot(from_centre, ez);
+    return std::fabs(z) < membrane::rest_height(std::hypot(x, y), cell_diameter);
+  }
+};
+
+Pose random_pose(Random& random, const Box& box) {
+  Pose p;
+  for (std::size_t d = 0; d < 3; ++d) p.centre[d] = random.uniform(0, box.size[d]);
+  p.ez = random.direction();
+  do {
+    p.ex = cross(random.direction(), p.ez);
+  } while (norm(p.ex) < 0.1);
+  p.ex = p.ex / norm(p.ex);
+  p.ey = cross(p.ez, p.ex);
+  return p;
+}
+
+/// Everything placed so far.
+class Packing {
+ public:
+  explicit Packing(const Case& c) : box_(c), vertices_(box_, cell_gap), carriers_near_(box_, carrier_cell_gap) {}
+
+  bool fits(const CellModel& model, const Pose& pose) const {
+    for (const Vec3& p : model.mesh.x) {
+      const Vec3 x = pose.place(p);
+      if (!box_.between_plates(x, plate_gap) || vertices_.any_near(x)) return false;
+      if (inside_any(x)) return false;
+    }
+    for (std::size_t k = 0; k < poses_.size(); ++k) {
+      if (norm(box_.nearest(poses_[k].centre - pose.centre)) > cell_diameter) continue;
+      for (const Vec3& x : placed_[k])
+        if (pose.inside(box_.nearest(x - pose.centre))) return false;
+    }
+    return true;
+  }
+
+  std::vector<Vec3> add(const CellModel& model, const Pose& pose) {
+    std::vector<Vec3> x;
+    for (const Vec3& p : model.mesh.x) x.push_back(pose.place(p));
+    for (const Vec3& p : x) vertices_.add(p), carriers_near_.add(p);
+    poses_.push_back(pose);
+    placed_.push_back(x);
+    return x;
+  }
+
+  bool carrier_fits(const Vec3& x) const {
+    return box_.between_plates(x, carrier_plate_gap) && !carriers_near_.any_near(x) && !inside_any(x);
+  }
+
+  const Box& box() const { return box_; }
+
+ private:
+  bool inside_any(const Vec3& x) const {
+    return std::any_of(poses_.begin(), poses_.end(),
+                       [&](const Pose& p) { return p.inside(box_.nearest(x - p.centre)); });
+  }
+  Box box_;
+  Bins vertices_, carriers_near_;
+  std::vector<Pose> poses_;
+  std::vector<std::vector<Vec3>> placed_;
+};
+
+void place_at_random(System& system, Packing& packing, std::size_t model, int count, Random& random) {
+  long tries = 0;
+  for (int placed = 0; placed < count; ++tries) {
+    if (tries >= most_tries)
+      throw Error("cell.placement: random placement put " + std::to_string(placed) + " of " + std::to_string(count) +
+                  " cells after " + std::to_string(tries) +
+                  " tries; lower the hematocrit, or use a packed state (placement compress)");
+    const Pose pose = random_pose(random, packing.box());
+    if (!packing.fits(system.models[model], pose)) continue;
+    system.cells.push_back({model, packing.add(system.models[model], pose)});
+    ++placed;
+  }
+}
+
+/// Cells flat in layers, as close as their gap allows.
+void place_on_grid(System& system, Packing& packing, std::size_t model, int count) {
+  const auto& x = system.models[model].mesh.x;
+  double rim = 0, top = 0;
+  for (const Vec3& p : x) rim = std::max(rim, std::hypot(p.x, p.y)), top = std::max(top, std::fabs(p.z));
+  const auto& box = packing.box();
+  const double side = 2 * rim + 1.05 * cell_gap, height = 2 * top + 1.05 * cell_gap;
+  const double margin = box.periodic[2] ? 0 : plate_gap - cell_gap / 2;
+  const int nx = static_cast<int>(box.size[0] / side), ny = static_cast<int>(box.size[1] / side),
+            nz = static_cast<int>((box.size[2] - 2 * margin) / height);
+  if (static_cast<long>(nx) * ny * nz < count)
+    throw Error("cell.placement: a grid has room for " + std::to_string(nx * ny * nz) + " of " + std::to_string(count) +
+                " cells; lower the hematocrit, or use a packed state (placement compress)");
+  for (int n = 0; n < count; ++n) {
+    const int i = n % nx, j = n / nx % ny, k = n / (nx * ny);
+    const Pose pose{{(i + 0.5) * box.size[0] / nx, (j + 0.5) * box.size[1] / ny,
+                     margin + (k + 0.5) * (box.size[2] - 2 * margin) / nz},
+                    {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    if (!packing.fits(system.models[model], pose))
+      throw Error("cell.placement: the grid overlaps cells of another entry; use random placement for one of them");
+    system.cells.push_back({model, packing.add(system.models[model], pose)});
+  }
+}
+
+void place_carriers(System& system, const Packing& packing, const Case& c, std::size_t entry, Random& random) {
+  const Carrier& carrier = c.carriers[entry];
+  const Box& box = packing.box();
+  const bool worm = carrier.kind == CarrierKind::worm;
+  const int beads = worm ? carrier.beads : 1;
+  Bins others(box, 2 * carrier.radius);
+  long tries = 0;
+  for (int placed = 0; placed < carrier.count; ++tries) {
+    if (tries >= most_tries)
+      throw Error("carrier.count: " + std::to_string(placed) + " of " + std::to_string(carrier.count) +
+                  " carriers found a place outside the cells; use fewer");
+    Vec3 x;
+    for (std::size_t d = 0; d < 3; ++d) {
+      const double gap = d == 2 && !box.periodic[2] ? carrier_plate_gap : 0;
+      x[d] = random.uniform(gap, box.size[d] - gap);
+    }
+    const Vec3 step = worm ? 2 * carrier.radius * random.direction() : Vec3{};
+    std::vector<Vec3> chain;
+    for (int b = 0; b < beads; ++b) chain.push_back(x + static_cast<double>(b) * step);
+    const bool fits = std::all_of(chain.begin(), chain.end(), [&](const Vec3& p) {
+      return packing.carrier_fits(p) && !(c.magnetic.dipoles && others.any_near(p));
+    });
+    if (!fits) continue;
+    for (const Vec3& p : chain) others.add(p);
+    system.carriers.push_back({entry, std::move(chain)});
+    ++placed;
+  }
+}
+
+}  // namespace
+
+std::vector<CellModel> cell_models(const Case& c) {
+  std::vector<CellModel> models;
+  for (const Cell& cell : c.cells) {
+    CellModel m;
+    m.mesh = membrane::red_cell_mesh(cell.vertices, cell_diameter, c.seed);
+    m.topology = membrane::topology(m.mesh);
+    m.area = membrane::surface_area(m.mesh);
+    m.volume = membrane::enclosed_volume(m.mesh);
+    for (const auto& e : m.topology.edges)
+      m.longest_edge = std::max(m.longest_edge, norm(m.mesh.x[static_cast<std::size_t>(e.a)] -
+                                                     m.mesh.x[static_cast<std::size_t>(e.b)]));
+    models.push_back(std::move(m));
+  }
+  return models;
+}
+
+int cell_count(const Case& c, const Cell& cell, const CellModel& model) {
+  if (cell.count) return *cell.count;
+  const auto& s = c.channel.size;
+  return static_cast<int>(std::lround(cell.hematocrit.value_or(0) * s[0] * s[1] * s[2] / model.volume));
+}
+
+System place(const Case& c) {
+  System system;
+  system.models = cell_models(c);
+  Packing packing(c);
+  Random random(c.seed);
+  // Regular entries first: the random ones find their places around them.
+  for (const Placement how : {Placement::grid, Placement::random})
+    for (std::size_t m = 0; m < c.cells.size(); ++m) {
+      if (c.cells[m].placement != how) continue;
+      const int count = cell_count(c, c.cells[m], system.models[m]);
+      if (how == Placement::grid)
+        place_on_grid(system, packing, m, count);
+      else
+        place_at_random(system, packing, m, count, random);
+    }
+  for (std::size_t entry = 0; entry < c.carriers.size(); ++entry) place_carriers(system, packing, c, entry, random);
+  return system;
+}
+
+}  // namespace hemomag::case_

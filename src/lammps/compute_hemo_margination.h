@@ -1,0 +1,37 @@
+// clang-format off
+#ifdef COMPUTE_CLASS
+ComputeStyle(hemo/margination,ComputeHemoMargination)
+#else
+// clang-format on
+
+#ifndef LMP_COMPUTE_HEMO_MARGINATION_H
+#define LMP_COMPUTE_HEMO_MARGINATION_H
+
+#include <vector>
+
+#include "compute.h"
+
+#include "analysis/margination.hpp"
+
+namespace LAMMPS_NS {
+
+/// `compute hemo/margination`: carriers in the cell-free layer, Eq. 46 (docs/styles/compute_hemo_margination.md).
+class ComputeHemoMargination : public Compute {
+ public:
+  ComputeHemoMargination(LAMMPS*, int, char**);
+  ~ComputeHemoMargination() override;
+  void init() override {}
+  void compute_vector() override;
+
+ private:
+  std::vector<double> heights() const;
+
+  double layer_ = 0;
+  hemomag::analysis::LayerWalls walls_ = hemomag::analysis::LayerWalls::lower;
+  long at_start_ = -1;
+};
+
+}  // namespace LAMMPS_NS
+
+#endif
+#endif
