@@ -1,12 +1,109 @@
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
 #include <mpi.h>
 
+#include "case/card.hpp"
+#include "case/case_file.hpp"
+#include "case/run.hpp"
 #include "lammps/host.hpp"
+
+// The command line: docs/command_line.md. Exit codes: 0 done, 1 a LAMMPS script failed, 2 bad input, 3 unstable,
+// 4 file trouble.
+
+namespace {
+
+namespace case_ = hemomag::case_;
+
+int rank() {
+  int r = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &r);
+  return r;
+}
+
+/// Every rank reads the case; all fail alike, one speaks.
+template <class Use>
+int with_case(const std::string& path, const std::vector<std::string>& overrides, Use use) {
+  try {
+    return use(case_::read_case(path, overrides));
+  } catch (const hemomag::Error& e) {
+    if (rank() == 0) std::fprintf(stderr, "%s\n", e.what());
+    return 2;
+  }
+}
+
+int check(const case_::Case& c) {
+  const auto card = case_::make_card(c, case_::cell_models(c));
+  if (rank() == 0) std::printf("%s\n%s", c.title.c_str(), card.print().c_str());
+  return card.refused() ? 2 : 0;
+}
+
+int lmp(const std::vector<std::string>& arguments) {
+  try {
+    hemomag::lammps::Host host(arguments, MPI_COMM_WORLD);
+    host.script();
+    return 0;
+  } catch (const hemomag::lammps::OneRankError& e) {
+    std::fprintf(stderr, "%s\n", e.what());
+    MPI_Abort(MPI_COMM_WORLD, 1);
+    return 1;
+  } catch (const hemomag::Error& e) {
+    if (rank() == 0) std::fprintf(stderr, "%s\n", e.what());
+    return 1;
+  }
+}
+
+int not_available(const char* what) {
+  if (rank() == 0) std::fprintf(stderr, "hemomag: %s is not available in this version; accepted: run, check, lmp\n", what);
+  return 2;
+}
+
+int parse_and_run(int argc, char** argv) {
+  CLI::App app{"Magnetic drug carriers among deformable red cells in flowing plasma."};
+  app.set_version_flag("--version", "hemomag " HEMOMAG_VERSION);
+  app.require_subcommand(1);
+
+  std::string path, out;
+  std::vector<std::string> overrides;
+  bool force = false, resume = false;
+  auto* run = app.add_subcommand("run", "run a case");
+  auto* card = app.add_subcommand("check", "print the unit and stability card of a case; runs nothing");
+  for (auto* command : {run, card}) {
+    command->add_option("CASE", path, "case file")->required();
+    command->add_option("--set", overrides, "override a key: key.path=value")->expected(1)->take_all();
+  }
+  run->add_option("--out", out, "run directory (default: out/NAME)");
+  run->add_flag("--force", force, "replace an existing run directory");
+  run->add_flag("--resume", resume, "go on from the last checkpoint (not in this version)");
+  app.add_subcommand("lmp", "LAMMPS with the hemo styles: hemomag lmp -in FILE")->prefix_command();
+  const std::vector<std::pair<const char*, const char*>> later = {{"pack", "only the initial state"}, {"sweep", "one run per value of a key"},
+                                                                  {"validate", "compare with theory and experiment"}, {"bench", "measure speed"},
+                                                                  {"report", "one page of a finished run"}};
+  for (const auto& [name, help] : later) app.add_subcommand(name, std::string(help) + " (not in this version)")->prefix_command();
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    if (rank() != 0) return e.get_exit_code() == 0 ? 0 : 2;
+    return app.exit(e) == 0 ? 0 : 2;
+  }
+  for (const auto& [name, help] : later)
+    if (app.got_subcommand(name)) return not_available(name);
+  if (resume) return not_available("--resume");
+  if (app.got_subcommand("check")) return with_case(path, overrides, check);
+  if (out.empty()) out = "out/" + std::filesystem::path(path).stem().string();
+  return with_case(path, overrides, [&](const case_::Case& c) { return case_::run_case(c, {out, force}, MPI_COMM_WORLD); });
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   MPI_Init(&argc, &argv);
-  {
-    hemomag::lammps::Host host({argv + 1, argv + argc}, MPI_COMM_WORLD);
-    host.script();
-  }
+  // LAMMPS has options of its own: they go through untouched.
+  const int code = argc > 1 && std::string(argv[1]) == "lmp" ? lmp({argv + 2, argv + argc}) : parse_and_run(argc, argv);
   MPI_Finalize();
+  return code;
 }

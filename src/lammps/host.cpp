@@ -1,5 +1,7 @@
 #include "lammps/host.hpp"
 
+#include <typeinfo>
+
 #include "input.h"
 #include "lammps.h"
 #include "lammps/style_table.hpp"
@@ -17,13 +19,33 @@ Host::Host(std::vector<std::string> arguments, MPI_Comm comm) : arguments_(std::
 
 Host::~Host() = default;
 
-void Host::command(const std::string& line) { lmp_->input->one(line); }
+/// LAMMPS was built with exceptions, whose types its package does not ship: they are told apart by name.
+template <class Work>
+void Host::guarded(Work work) {
+  try {
+    work();
+  } catch (const Error&) {
+    throw;
+  } catch (const std::exception& e) {
+    const bool one_rank = std::string(typeid(e).name()).find("Abort") != std::string::npos;
+    std::string message = e.what();
+    while (!message.empty() && message.back() == '\n') message.pop_back();
+    if (one_rank) throw OneRankError(message);
+    throw Error(message);
+  }
+}
+
+void Host::command(const std::string& line) {
+  guarded([&] { lmp_->input->one(line); });
+}
 
 void Host::script(const std::string& path) {
-  if (path.empty())
-    lmp_->input->file();
-  else
-    lmp_->input->file(path.c_str());
+  guarded([&] {
+    if (path.empty())
+      lmp_->input->file();
+    else
+      lmp_->input->file(path.c_str());
+  });
 }
 
 }  // namespace hemomag::lammps

@@ -5,14 +5,21 @@
 
 #include <mpi.h>
 
+#include "base/error.hpp"
+
 namespace LAMMPS_NS {
 class LAMMPS;
 }
 
 namespace hemomag::lammps {
 
-/// One LAMMPS instance that knows the hemo styles. LAMMPS's fatal errors end the process through MPI_Abort,
-/// as in LAMMPS itself: check input before it gets here.
+/// A fatal error that only some ranks met: the others may be waiting for them, so that the run has to be aborted.
+class OneRankError : public Error {
+ public:
+  using Error::Error;
+};
+
+/// One LAMMPS instance that knows the hemo styles. Its fatal errors arrive as Error (met by all ranks) or OneRankError.
 class Host {
  public:
   /// @param arguments  LAMMPS command-line options, without the program name, e.g. {"-screen", "none"}
@@ -29,6 +36,9 @@ class Host {
   void script(const std::string& path = {});
 
  private:
+  template <class Work>
+  void guarded(Work work);
+
   std::vector<std::string> arguments_;  // LAMMPS keeps pointers into these
   std::unique_ptr<LAMMPS_NS::LAMMPS> lmp_;
 };

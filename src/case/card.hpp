@@ -1,0 +1,31 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "case/case.hpp"
+#include "case/placement.hpp"
+
+namespace hemomag::case_ {
+
+enum class Verdict { fine, doubtful, refused };
+
+/// One line of the card: a number, its verdict, and what to change when it is not fine.
+struct CardLine {
+  std::string name;
+  std::string value;
+  Verdict verdict = Verdict::fine;
+  std::string advice;
+};
+
+/// What a case means before it is run: units, dimensionless numbers, stability, cost. Limits: docs/card.md.
+struct Card {
+  std::vector<CardLine> lines;
+  bool refused() const;
+  std::string print() const;
+  /// The refused lines alone, one a line.
+  std::string refusals() const;
+};
+
+Card make_card(const Case& c, const std::vector<CellModel>& models);
+
+}  // namespace hemomag::case_

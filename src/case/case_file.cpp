@@ -1,0 +1,426 @@
+#include "case/case_file.hpp"
+
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <utility>
+
+#include <toml++/toml.h>
+
+#include "case/keys.hpp"
+#include "case/lattice_units.hpp"
+
+namespace hemomag::case_ {
+namespace {
+
+/// A parsed file, its name, and which keys came from --set.
+struct Source {
+  std::string path;
+  toml::table root;
+  std::map<const toml::node*, std::string> overridden;
+
+  std::string place(const toml::node& node) const {
+    const auto at = node.source().begin;
+    return path + ":" + std::to_string(at.line == 0 ? 1 : at.line) + ":" + std::to_string(at.column == 0 ? 1 : at.column);
+  }
+  [[noreturn]] void fail(const toml::node& node, const std::string& key, const std::string& problem) const {
+    const auto set = overridden.find(&node);
+    if (set != overridden.end()) throw CaseError("--set " + set->second + ": " + problem);
+    throw CaseError(place(node) + ": " + key + ": " + problem);
+  }
+};
+
+const char* type_name(const toml::node& node) {
+  switch (node.type()) {
+    case toml::node_type::string: return "a string";
+    case toml::node_type::integer: return "a whole number";
+    case toml::node_type::floating_point: return "a number";
+    case toml::node_type::boolean: return "true or false";
+    case toml::node_type::array: return "a list";
+    case toml::node_type::table: return "a table";
+    default: return "a date or time";
+  }
+}
+
+/// One table of the file, read key by key; what the schema does not know is refused when it is opened.
+class Table {
+ public:
+  Table(const Source& source, const toml::table* table, std::string schema, std::string path)
+      : source_(source), table_(table), schema_(std::move(schema)), path_(std::move(path)) {
+    if (table_) refuse_unknown();
+  }
+
+  bool has(const char* name) const { return table_ && table_->contains(name); }
+  const toml::node& node(const char* name) const { return *table_->get(name); }
+
+  /// The value as it is written in the file or, absent, as its default is written in the table of keys.
+  std::string word(const char* name) const {
+    const Key& key = *find_key(schema_, name);
+    if (!has(name)) return key.fallback;
+    const auto text = node(name).value<std::string>();
+    const bool table = node(name).is_table();  // placement = { file = ... }
+    if (!text && !table) wrong_type(name, key);
+    const std::string word = table ? "file" : *text;
+    if (key.kind == Kind::text) return word;
+    for (const char* choice : key.choices)
+      if (word == choice) return word;
+    for (const char* choice : key.later)
+      if (word == choice) fail(name, "\"" + word + "\" is not available in this version; accepted: " + accepted(key));
+    fail(name, "\"" + word + "\" is unknown; accepted: " + accepted(key));
+  }
+
+  bool flag(const char* name) const {
+    const Key& key = *find_key(schema_, name);
+    if (!has(name)) return std::string(key.fallback) == "true";
+    const auto value = node(name).value_exact<bool>();
+    if (!value) wrong_type(name, key);
+    return *value;
+  }
+
+  double number(const char* name) const {
+    const Key& key = *find_key(schema_, name);
+    if (!has(name)) return std::stod(key.fallback);
+    const auto& n = node(name);
+    if (!n.is_number() || (key.kind == Kind::integer && !n.is_integer())) wrong_type(name, key);
+    return in_range(name, key, *n.value<double>());
+  }
+
+  double quantity(const char* name) const {
+    const Key& key = *find_key(schema_, name);
+    if (!has(name)) return case_::quantity(key.fallback, *key.dimension);
+    return in_range(name, key, read(name, key, node(name)));
+  }
+
+  std::optional<double> optional_quantity(const char* name) const {
+    if (!has(name) && *find_key(schema_, name)->fallback == '\0') return std::nullopt;
+    return quantity(name);
+  }
+
+  std::array<double, 3> vector(const char* name) const {
+    const Key& key = *find_key(schema_, name);
+    std::array<double, 3> v{};
+    if (!has(name)) return v;
+    const auto* list = node(name).as_array();
+    if (!list || list->size() != 3) wrong_type(name, key);
+    for (std::size_t d = 0; d < 3; ++d) v[d] = in_range(name, key, read(name, key, *list->get(d)));
+    return v;
+  }
+
+  /// True when the key holds this one of its words, e.g. "never".
+  bool is_word(const char* name, const char* word) const {
+    return has(name) && node(name).value<std::string>() == std::optional<std::string>(word);
+  }
+
+  /// A later version's word in a key that is otherwise a quantity.
+  void refuse_later(const char* name) const {
+    const Key& key = *find_key(schema_, name);
+    for (const char* word : key.later)
+      if (is_word(name, word)) fail(name, std::string("\"") + word + "\" is not available in this version; accepted: " + accepted(key));
+  }
+
+  [[noreturn]] void fail(const char* name, const std::string& problem) const { source_.fail(node(name), full(name), problem); }
+
+  /// Report a key that is missing, at the header of its table (1:1 when there is none).
+  [[noreturn]] void missing(const char* name, const std::string& problem) const {
+    if (table_) source_.fail(*table_, full(name), problem);
+    throw CaseError(source_.path + ":1:1: " + full(name) + ": " + problem);
+  }
+
+  void require(const char* name) const {
+    if (!has(name)) missing(name, "is missing; " + accepted(*find_key(schema_, name)) + " is required");
+  }
+
+  std::string full(const char* name) const { return path_.empty() ? name : path_ + "." + name; }
+
+ private:
+  void refuse_unknown() const {
+    for (const auto& [name, value] : *table_) {
+      const std::string text(name.str());
+      if (find_key(schema_, text)) continue;
+      if (schema_.empty() && !nearest_name("", text).empty() && nearest_name("", text) == text) continue;  // a table
+      const std::string near = nearest_name(schema_, text);
+      std::string known;
+      for (const Key& key : keys())
+        if (schema_ == key.table) known += (known.empty() ? "" : ", ") + std::string(key.name);
+      source_.fail(value, full(text.c_str()),
+                   "is not a key" + (near.empty() ? "; accepted: " + known : "; did you mean " + near + "? accepted: " + known));
+    }
+  }
+
+  [[noreturn]] void wrong_type(const char* name, const Key& key) const {
+    fail(name, std::string(type_name(node(name))) + " is not what is meant here; accepted: " + accepted(key));
+  }
+
+  double read(const char* name, const Key& key, const toml::node& n) const {
+    const auto text = n.value<std::string>();
+    if (!text)
+      source_.fail(n, full(name), std::string(type_name(n)) + " without a unit; accepted: " + accepted(key) + " as a string");
+    try {
+      return case_::quantity(*text, *key.dimension);
+    } catch (const Error& e) {
+      source_.fail(source_.overridden.contains(&node(name)) ? node(name) : n, full(name), e.what());
+    }
+  }
+
+  double in_range(const char* name, const Key& key, double value) const {
+    const bool low = key.above_min ? value > key.min : value >= key.min;
+    if (!std::isfinite(value) || !low || value > key.max) fail(name, "is out of range; accepted: " + accepted(key));
+    return value;
+  }
+
+  const Source& source_;
+  const toml::table* table_;
+  std::string schema_, path_;
+};
+
+std::string read_text(const std::string& path) {
+  std::ifstream file(path);
+  std::stringstream text;
+  if (file) text << file.rdbuf();
+  if (!file || file.bad()) throw CaseError(path + ":1:1: file: cannot be read; a readable TOML file is expected");
+  return text.str();
+}
+
+toml::table parse(const std::string& text, const std::string& path) {
+  try {
+    return toml::parse(text, path);
+  } catch (const toml::parse_error& e) {
+    throw CaseError(path + ":" + std::to_string(e.source().begin.line) + ":" + std::to_string(e.source().begin.column) +
+                    ": syntax: " + std::string(e.description()) + "; a TOML file is expected");
+  }
+}
+
+/// The table a --set path leads to, made if the schema has it.
+toml::table& descend(toml::table& root, const std::vector<std::string>& parts, const std::string& key) {
+  toml::node* at = &root;
+  for (std::size_t k = 0; k + 1 < parts.size(); ++k) {
+    if (auto* list = at->as_array()) {
+      const bool number = parts[k].find_first_not_of("0123456789") == std::string::npos;
+      const std::size_t index = number ? std::stoul(parts[k].substr(0, 9)) : 0;
+      if (index >= list->size() || (!number && list->size() != 1))
+        throw CaseError("--set " + key + ": there are " + std::to_string(list->size()) + " entries; name one by its number, from 0");
+      at = list->get(index);
+      if (number) continue;
+    }
+    auto* table = at->as_table();
+    if (!table) throw CaseError("--set " + key + ": is not a key; accepted: table.key");
+    table->insert(parts[k], toml::table{});  // keeps what is there
+    at = table->get(parts[k]);
+  }
+  if (auto* list = at->as_array()) {
+    if (list->size() != 1)
+      throw CaseError("--set " + key + ": there are " + std::to_string(list->size()) + " entries; name one by its number, from 0");
+    at = list->get(0);
+  }
+  if (!at->is_table()) throw CaseError("--set " + key + ": is not a key; accepted: table.key");
+  return *at->as_table();
+}
+
+void apply_override(Source& source, const std::string& override_text) {
+  const auto equals = override_text.find('=');
+  if (equals == std::string::npos || equals == 0)
+    throw CaseError("--set " + override_text + ": has no value; accepted: key.path=value");
+  const std::string key = override_text.substr(0, equals), value = override_text.substr(equals + 1);
+  std::vector<std::string> parts;
+  std::stringstream path(key);
+  for (std::string part; std::getline(path, part, '.');) parts.push_back(part);
+  toml::table& table = descend(source.root, parts, key);
+  // A TOML value, or else a plain string: --set magnetic.B0=0.05 T
+  try {
+    toml::table parsed = toml::parse("v = " + value);
+    parsed.get("v")->visit([&](auto& v) { table.insert_or_assign(parts.back(), v); });
+  } catch (const toml::parse_error&) {
+    table.insert_or_assign(parts.back(), value);
+  }
+  source.overridden[table.get(parts.back())] = key;
+}
+
+Table section(const Source& source, const char* name) {
+  const toml::node* node = source.root.get(name);
+  if (node && !node->is_table()) source.fail(*node, name, std::string("is ") + type_name(*node) + "; a [" + name + "] table is expected");
+  return Table(source, node ? node->as_table() : nullptr, name, name);
+}
+
+/// The entries of [[name]].
+std::vector<Table> entries(const Source& source, const char* name) {
+  std::vector<Table> tables;
+  const toml::node* node = source.root.get(name);
+  if (!node) return tables;
+  const auto* list = node->as_array();
+  if (!list) source.fail(*node, name, std::string("is ") + type_name(*node) + "; [[" + name + "]] entries are expected");
+  for (std::size_t k = 0; k < list->size(); ++k) {
+    if (!list->get(k)->is_table()) source.fail(*list->get(k), name, std::string("[[") + name + "]] entries are expected");
+    const std::string path = list->size() == 1 ? name : std::string(name) + "." + std::to_string(k);
+    tables.emplace_back(source, list->get(k)->as_table(), name, path);
+  }
+  return tables;
+}
+
+void read_channel(Case& c, const Table& t) {
+  t.require("size");
+  c.channel.size = t.vector("size");
+  c.channel.boundary = t.word("boundary") == "plates" ? Boundary::plates : Boundary::periodic;
+  c.channel.plates = t.word("plates") == "lower-rest" ? Plates::lower_rest : Plates::symmetric;
+  c.channel.shear_rate = t.optional_quantity("shear_rate").value_or(0);
+  if (c.channel.boundary == Boundary::periodic && c.channel.shear_rate > 0)
+    t.fail("shear_rate", "needs moving plates; accepted: boundary = \"plates\", or no shear_rate");
+  c.channel.body_force[1] = t.optional_quantity("body_force").value_or(0);
+}
+
+void read_numerics(Case& c, const Table& t, const Table& channel) {
+  auto& n = c.numerics;
+  t.require("dx");
+  n.dx = t.quantity("dx");
+  for (std::size_t d = 0; d < 3; ++d) {
+    const double nodes = c.channel.size[d] / n.dx;
+    if (std::fabs(nodes - std::round(nodes)) > 1e-9 * nodes || nodes < 4 || nodes > 1e6) {
+      char text[160];
+      std::snprintf(text, sizeof text, "%g um along %c is %.9g dx; accepted: a whole multiple of dx, at least 4", c.channel.size[d] * 1e6,
+                    "xyz"[d], nodes);
+      channel.fail("size", text);
+    }
+  }
+  n.tau = t.number("tau");
+  if (t.has("dt") && t.has("cell_reynolds")) t.fail("dt", "excludes cell_reynolds; accepted: one of the two");
+  n.dt = t.optional_quantity("dt");
+  if (!n.dt && !t.is_word("cell_reynolds", "true")) {
+    if (c.channel.shear_rate > 0)
+      n.cell_reynolds = t.number("cell_reynolds");
+    else if (t.has("cell_reynolds"))
+      t.fail("cell_reynolds", "means nothing without channel.shear_rate; accepted: numerics.dt, or cell_reynolds = \"true\"");
+    else
+      t.missing("dt", "is missing; without channel.shear_rate a time step is required, e.g. \"6.81 us\"");
+  }
+  t.word("scheme");
+  t.word("precision");
+  n.kernel = t.word("kernel");
+}
+
+Cell read_cell(const Table& t) {
+  Cell cell;
+  t.word("kind");
+  t.word("stress_free");
+  cell.vertices = static_cast<int>(t.number("vertices"));
+  if (t.has("count") && t.has("hematocrit")) t.fail("count", "excludes hematocrit; accepted: one of the two");
+  if (t.has("count"))
+    cell.count = static_cast<int>(t.number("count"));
+  else
+    cell.hematocrit = t.number("hematocrit");
+  cell.placement = t.word("placement") == "grid" ? Placement::grid : Placement::random;
+  cell.hinges = t.word("hinges") == "flat" ? Hinges::flat : Hinges::rest;
+  cell.shear_modulus = t.quantity("shear_modulus");
+  cell.area_modulus_local = t.quantity("area_modulus_local");
+  cell.area_modulus_global = t.quantity("area_modulus_global");
+  cell.volume_modulus = t.quantity("volume_modulus");
+  cell.bending_modulus = t.quantity("bending_modulus");
+  cell.stretch_ratio = t.number("stretch_ratio");
+  return cell;
+}
+
+Carrier read_carrier(const Table& t) {
+  Carrier carrier;
+  carrier.kind = t.word("kind") == "worm" ? CarrierKind::worm : CarrierKind::particle;
+  for (const char* key : {"beads", "stretching", "bending"})
+    if (carrier.kind == CarrierKind::particle && t.has(key)) t.fail(key, "is for worms; accepted: kind = \"worm\", or leave it out");
+  carrier.count = static_cast<int>(t.number("count"));
+  carrier.beads = static_cast<int>(t.number("beads"));
+  carrier.stretching = t.quantity("stretching");
+  carrier.bending = t.quantity("bending");
+  carrier.radius = t.quantity("radius");
+  carrier.susceptibility = t.number("susceptibility");
+  carrier.magnetic_fraction = t.number("magnetic_fraction");
+  carrier.feedback = t.flag("feedback");
+  return carrier;
+}
+
+void read_contact(Case& c, const Table& t) {
+  c.contact.morse_depth = t.number("morse_depth");
+  c.contact.morse_beta = t.quantity("morse_beta");
+  c.contact.morse_r0 = t.quantity("morse_r0");
+  c.contact.morse_cutoff = t.quantity("morse_cutoff");
+  c.contact.cell_sigma = t.optional_quantity("cell_sigma");
+  c.contact.carrier_sigma = t.quantity("carrier_sigma");
+  c.contact.epsilon = t.number("epsilon");
+  c.contact.plate_sigma = t.quantity("plate_sigma");
+  c.contact.repulsion = t.word("repulsion") == "soft" ? Repulsion::soft : Repulsion::paper;
+}
+
+void read_magnetic(Case& c, const Table& t, bool given) {
+  if (!given) return;
+  auto& m = c.magnetic;
+  const std::string field = t.word("field");
+  m.field = field == "none" ? FieldKind::none : field == "uniform" ? FieldKind::uniform : FieldKind::gradient;
+  m.B0 = t.quantity("B0");
+  m.axis = t.word("axis")[0] - 'x';
+  m.gradient = t.optional_quantity("gradient");
+  m.zero_at = t.vector("zero_at");
+  m.dipoles = t.flag("dipoles");
+  if (m.gradient && m.field != FieldKind::gradient) t.fail("gradient", "needs field = \"gradient\"; accepted: that, or leave it out");
+  if (m.gradient && t.has("B0")) t.fail("gradient", "excludes B0; accepted: one of the two");
+  if (t.has("zero_at") && !m.gradient) t.fail("zero_at", "needs an explicit gradient; accepted: gradient = \"... T/m\" with it");
+  if (m.field == FieldKind::gradient && !m.gradient && c.channel.boundary == Boundary::periodic)
+    t.missing("gradient", "is missing; without plates a gradient field needs gradient = \"... T/m\"");
+}
+
+void read_rest(Case& c, const Source& source) {
+  const Table analysis = section(source, "analysis");
+  analysis.refuse_later("layer");
+  c.analysis.layer = analysis.quantity("layer");
+  if (c.analysis.layer >= c.channel.size[2]) analysis.fail("layer", "is thicker than the channel; accepted: less than its height");
+  c.analysis.walls = analysis.word("walls") == "both" ? LayerWalls::both : LayerWalls::lower;
+  const Table run = section(source, "run");
+  if (run.has("time") && run.has("steps")) run.fail("steps", "excludes time; accepted: one of the two");
+  if (!run.has("time") && !run.has("steps")) run.missing("time", "is missing; time (e.g. \"1.4 s\") or steps is required");
+  c.run.time = run.optional_quantity("time");
+  if (run.has("steps")) c.run.steps = static_cast<long>(run.number("steps"));
+  c.run.checkpoint = run.quantity("checkpoint");
+  c.analysis.average_from = analysis.quantity("average_from");
+  const double duration = c.run.time ? *c.run.time : static_cast<double>(*c.run.steps) * lattice_units(c).dt;
+  if (!analysis.has("average_from") && duration <= c.analysis.average_from) c.analysis.average_from = 0;
+  const Table output = section(source, "output");
+  c.output.fields = output.is_word("fields", "never") ? std::nullopt : output.optional_quantity("fields");
+  c.output.series = output.is_word("series", "never") ? std::nullopt : output.optional_quantity("series");
+}
+
+std::string effective_text(const Source& source, const std::string& text) {
+  if (source.overridden.empty()) return text;
+  std::stringstream out;
+  out << source.root << "\n";
+  return out.str();
+}
+
+}  // namespace
+
+Case read_case(const std::string& path, const std::vector<std::string>& overrides) {
+  const std::string text = read_text(path);
+  Source source{path, parse(text, path), {}};
+  for (const std::string& o : overrides) apply_override(source, o);
+
+  Case c;
+  const Table top(source, &source.root, "", "");
+  c.title = top.word("title");
+  if (c.title.size() > 200 || c.title.find('\n') != std::string::npos)
+    top.fail("title", "is too long; accepted: one line of at most 200 characters");
+  c.seed = static_cast<std::uint64_t>(top.number("seed"));
+  const Table channel = section(source, "channel");
+  read_channel(c, channel);
+  const Table fluid = section(source, "fluid");
+  fluid.require("viscosity");
+  c.fluid.viscosity = fluid.quantity("viscosity");
+  c.fluid.density = fluid.quantity("density");
+  read_numerics(c, section(source, "numerics"), channel);
+  for (const Table& t : entries(source, "cell")) c.cells.push_back(read_cell(t));
+  for (const Table& t : entries(source, "carrier")) {
+    c.carriers.push_back(read_carrier(t));
+    if (c.carriers.back().feedback != c.carriers.front().feedback)
+      t.fail("feedback", "differs from another [[carrier]]; accepted: the same for all");
+  }
+  read_contact(c, section(source, "contact"));
+  read_magnetic(c, section(source, "magnetic"), source.root.contains("magnetic"));
+  read_rest(c, source);
+  c.text = effective_text(source, text);
+  return c;
+}
+
+}  // namespace hemomag::case_

@@ -1,0 +1,153 @@
+#include "case/run.hpp"
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include <nlohmann/json.hpp>
+
+#include "case/card.hpp"
+#include "case/cells_data.hpp"
+#include "case/lattice_units.hpp"
+#include "case/script.hpp"
+#include "io/files.hpp"
+#include "lammps/compat.hpp"
+#include "lammps/fix_hemo_series.h"
+#include "lammps/fix_hemo_watch.h"
+#include "lammps/host.hpp"
+
+namespace hemomag::case_ {
+namespace {
+
+constexpr int done = 0, bad_input = 2, unstable = 3, file_trouble = 4;
+
+/// What rank 0 decided, told to all.
+int agree(int code, MPI_Comm comm) {
+  MPI_Bcast(&code, 1, MPI_INT, 0, comm);
+  return code;
+}
+
+int fail(const std::string& message, int code) {
+  std::fprintf(stderr, "hemomag: %s\n", message.c_str());
+  return code;
+}
+
+/// The card and the starting state; nothing is written. Rank 0 only.
+int prepare(const Case& c, const RunOptions& options, std::string& data, std::string& script) {
+  const auto models = cell_models(c);
+  const Card card = make_card(c, models);
+  if (card.refused()) {
+    std::fprintf(stderr, "%s", card.refusals().c_str());
+    return fail("the case is refused; `hemomag check` prints the whole card", bad_input);
+  }
+  if (std::filesystem::exists(options.out) && !options.force)
+    return fail(options.out + " exists; give another --out, or --force to replace it", bad_input);
+  const System system = place(c);
+  data = cells_data(c, system);
+  script = lammps_script(c, system);
+  return done;
+}
+
+void write_directory(const Case& c, const RunOptions& options, const std::string& data, const std::string& script) {
+  std::filesystem::remove_all(options.out);
+  io::make_directory(options.out);
+  io::replace_file(options.out + "/case.toml", c.text);
+  io::replace_file(options.out + "/cells.data", data);
+  io::replace_file(options.out + "/in.lammps", script);
+}
+
+/// Run the script of the directory, with a progress line before its `run`.
+void execute(lammps::Host& host, const std::string& path, double dt) {
+  std::ifstream script(path);
+  if (!script) throw Error(path + ": cannot be read");
+  for (std::string line; std::getline(script, line);) {
+    if (line.rfind("run ", 0) == 0) host.command("fix progress all hemo/progress dt_s " + std::to_string(dt * 1e6) + "e-6");
+    host.command(line);
+  }
+}
+
+nlohmann::json summary(const Case& c, lammps::Host& host, double wall_s) {
+  const LatticeUnits units = lattice_units(c);
+  const auto n = nodes(c);
+  const auto* series = lammps::find_fix<LAMMPS_NS::FixHemoSeries>(&host.lammps(), "hemo/series");
+  const auto* watch = lammps::find_fix<LAMMPS_NS::FixHemoWatch>(&host.lammps(), "hemo/watch");
+  const auto& seen = watch->record();
+  const double updates = static_cast<double>(n[0]) * n[1] * n[2] * static_cast<double>(steps(c));
+  return {{"title", c.title},
+          {"steps", steps(c)},
+          {"dt_s", units.dt},
+          {"dx_m", units.dx},
+          {"wall_s", wall_s},
+          {"mlups", updates / wall_s / 1e6},
+          {"probability_end", series ? nlohmann::json(series->probability_end()) : nlohmann::json()},
+          {"probability_mean", series ? nlohmann::json(series->probability_mean()) : nlohmann::json()},
+          {"cells_start", seen.cells_start},
+          {"cells_end", seen.cells_end},
+          {"carriers_start", seen.carriers_start},
+          {"carriers_end", seen.carriers_end},
+          {"carriers_inside_max", seen.carriers_inside_max},
+          {"mach_max", seen.mach_max},
+          {"area_drift_max", seen.area_drift_max},
+          {"volume_drift_max", seen.volume_drift_max}};
+}
+
+void print_summary(const nlohmann::json& s, const std::string& out) {
+  std::printf("%ld steps in %.1f s\n", s["steps"].get<long>(), s["wall_s"].get<double>());
+  if (!s["probability_end"].is_null())
+    std::printf("margination probability %.3f at the end, %.3f in the mean\n", s["probability_end"].get<double>(),
+                s["probability_mean"].get<double>());
+  if (s["carriers_inside_max"].get<long>() > 0)
+    std::printf("warning: up to %ld carriers were inside cells at one time\n", s["carriers_inside_max"].get<long>());
+  std::printf("output in %s\n", out.c_str());
+}
+
+}  // namespace
+
+int run_case(const Case& c, const RunOptions& options, MPI_Comm comm) {
+  int rank = 0;
+  MPI_Comm_rank(comm, &rank);
+  int code = done;
+  if (rank == 0) {
+    try {
+      std::string data, script;
+      code = prepare(c, options, data, script);
+      if (code == done) {
+        std::printf("%s\n", c.title.c_str());
+        try {
+          write_directory(c, options, data, script);
+        } catch (const std::exception& e) {
+          code = fail(e.what(), file_trouble);
+        }
+      }
+    } catch (const Error& e) {
+      code = fail(e.what(), bad_input);
+    }
+  }
+  code = agree(code, comm);
+  if (code != done) return code;
+
+  const auto home = std::filesystem::current_path();
+  std::filesystem::current_path(options.out);
+  try {
+    lammps::Host host({"-screen", "none", "-log", "log.lammps"}, comm);
+    const double start = MPI_Wtime();
+    execute(host, "in.lammps", lattice_units(c).dt);
+    const double wall_s = MPI_Wtime() - start;
+    const auto results = summary(c, host, wall_s);
+    if (rank == 0) {
+      io::replace_file("summary.json", results.dump(2) + "\n");
+      print_summary(results, options.out);
+    }
+  } catch (const lammps::OneRankError& e) {
+    fail(e.what(), unstable);
+    MPI_Abort(comm, unstable);
+  } catch (const std::exception& e) {
+    code = unstable;
+    if (rank == 0) fail(e.what(), code);
+  }
+  std::filesystem::current_path(home);
+  return code;
+}
+
+}  // namespace hemomag::case_
