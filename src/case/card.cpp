@@ -36,17 +36,25 @@ class CardWriter {
   CardWriter(const Case& c, const std::vector<CellModel>& models) : c_(c), models_(models), units_(lattice_units(c)) {}
 
   Card write() {
+    key_ = "numerics";
     scales();
+    key_ = "channel";
     flow();
-    for (std::size_t m = 0; m < c_.cells.size(); ++m) cells(m);
-    for (const Carrier& carrier : c_.carriers) carriers(carrier);
+    for (std::size_t m = 0; m < c_.cells.size(); ++m) {
+      key_ = entry_path("cell", m, c_.cells.size());
+      cells(m);
+    }
+    for (std::size_t k = 0; k < c_.carriers.size(); ++k) {
+      key_ = entry_path("carrier", k, c_.carriers.size());
+      carriers(c_.carriers[k]);
+    }
     cost();
     return card_;
   }
 
  private:
   void add(const char* name, std::string value, Verdict verdict = Verdict::fine, std::string advice = {}) {
-    card_.lines.push_back({name, std::move(value), verdict, verdict == Verdict::fine ? std::string() : std::move(advice)});
+    card_.lines.push_back({name, std::move(value), verdict, verdict == Verdict::fine ? std::string() : std::move(advice), position(c_, key_)});
   }
 
   void scales() {
@@ -69,7 +77,7 @@ class CardWriter {
     if (c_.channel.boundary == Boundary::plates) speed += g * H * H / (8 * mu);
     const double mach = speed / units_.velocity() * std::sqrt(3.0);
     add("wall Mach number", text("%.3g (fastest flow %.4g mm/s)", mach, speed * 1e3), below(mach, 0.15, 0.3),
-        "must stay under 0.3; lower cell_reynolds or tau, or use plates = \"symmetric\"");
+        "under 0.3; lower cell_reynolds or tau, or use plates = \"symmetric\"");
     if (c_.channel.shear_rate <= 0) return;
     const double re_cell = units_.density * c_.channel.shear_rate * cell_radius * cell_radius / mu;
     const double re_channel = units_.density * c_.channel.shear_rate * H * H / mu;
@@ -87,9 +95,9 @@ class CardWriter {
     const double S = (cell.area_modulus_local + cell.area_modulus_global + 2 * cell.shear_modulus) / units_.tension() /
                      (2 * c_.fluid.viscosity / eta);
     add("membrane stability S", text("%.3g", S), below(S, 5, 15),
-        "(k_d + k_a + 2 mu0)/(2 eta) in lattice units must stay under 15; lower cell_reynolds or area_modulus_local");
+        "(k_d + k_a + 2 mu0)/(2 eta) in lattice units under 15; lower cell_reynolds or area_modulus_local");
     const double edge = model.longest_edge / units_.dx;
-    add("longest mesh edge", text("%.3g dx", edge), below(edge, 1.5, 2.5), "more vertices or a larger dx keep the membrane tight");
+    add("longest mesh edge", text("%.3g dx", edge), below(edge, 1.5, 4), "more vertices or a larger dx keep the membrane tight");
     const double finest = std::sqrt(model.area / cell.vertices) / units_.dx;
     add("mesh spacing", text("%.3g dx", finest), finest >= 0.3 ? Verdict::fine : Verdict::doubtful, "fewer vertices or a smaller dx");
     if (c_.channel.shear_rate > 0)
@@ -101,7 +109,7 @@ class CardWriter {
     const bool too_large = carrier.feedback && carrier.radius >= R;
     add("carriers", text("%d of radius %.4g nm%s", carrier.count, carrier.radius * 1e9, carrier.feedback ? "" : ", one-way"),
         too_large ? Verdict::refused : Verdict::fine,
-        text("a carrier must be smaller than the kernel's radius %.4g nm; use a larger dx", R * 1e9));
+        text("radius under the kernel's own, %.4g nm; use a larger dx", R * 1e9));
     if (too_large) return;
     pull(carrier);
     if (c_.magnetic.dipoles) contact(carrier);
@@ -118,7 +126,7 @@ class CardWriter {
     if (slope > 0)
       add("magnetic time T_e", text("%.4g ms", 1e3 * stokes_friction(c_, carrier) * vacuum_permeability / (susceptible_volume(carrier) * slope * slope)));
     add("drift", text("%.4g mm/s, %.3g dx a step", drift * 1e3, per_step), below(per_step, 0.05, 0.1),
-        text("must stay under 0.1 dx a step: at most %.3g T here, or a smaller dt", B * std::sqrt(0.1 / per_step)));
+        text("under 0.1 dx a step: at most %.3g T here, or a smaller dt", B * std::sqrt(0.1 / per_step)));
     const double re = units_.density * drift * 2 * carrier.radius / c_.fluid.viscosity;
     add("Reynolds number, carrier", text("%.3g", re), below(re, 0.1, 0.5), "lower B0 or cell_reynolds");
   }
@@ -143,15 +151,15 @@ class CardWriter {
     const double ratio = 8 * carrier.stretching * units_.dt / friction;
     const double largest = 2 * friction / (8 * units_.dt);
     add("worm bond stability", text("8 k dt/Gamma = %.3g", ratio), ratio < 2 ? Verdict::fine : Verdict::refused,
-        text("must stay under 2: the largest stable stretching is %.3g uN/m here", largest * 1e6));
+        text("under 2: the largest stable stretching is %.3g uN/m here", largest * 1e6));
     const double length = 2 * carrier.radius * carrier.beads;
     const double box = std::min({c_.channel.size[0], c_.channel.size[1], c_.channel.size[2]});
     add("worm length", text("%.4g um", length * 1e6), length < box ? Verdict::fine : Verdict::refused,
-        "must be shorter than the channel");
+        "shorter than the channel");
     // The bending mode of a discrete chain is stiffest at 16 kappa 2/l0^2 for U = kappa (theta - theta0)^2.
     const double bending = 32 * carrier.bending / (4 * carrier.radius * carrier.radius) * units_.dt / friction;
     add("worm bending stability", text("32 kappa dt/(l0^2 Gamma) = %.3g", bending), below(bending, 1, 2),
-        "must stay under 2: lower carrier.bending or dt");
+        "under 2: lower carrier.bending or dt");
   }
 
   void cost() {
@@ -171,6 +179,7 @@ class CardWriter {
   const Case& c_;
   const std::vector<CellModel>& models_;
   LatticeUnits units_;
+  std::string key_;  // of the part of the case a line is about
   Card card_;
 };
 
@@ -199,7 +208,7 @@ std::string Card::print() const {
 std::string Card::refusals() const {
   std::string all;
   for (const CardLine& l : lines)
-    if (l.verdict == Verdict::refused) all += print_line(l);
+    if (l.verdict == Verdict::refused) all += l.position + ": " + l.name + ", " + l.value + ", is refused; accepted: " + l.advice + "\n";
   return all;
 }
 

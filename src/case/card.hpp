@@ -14,7 +14,8 @@ struct CardLine {
   std::string name;
   std::string value;
   Verdict verdict = Verdict::fine;
-  std::string advice;
+  std::string advice;    ///< what is accepted, or what would be better
+  std::string position;  ///< of the part of the case file it is about
 };
 
 /// What a case means before it is run: units, dimensionless numbers, stability, cost. Limits: docs/card.md.
@@ -22,7 +23,7 @@ struct Card {
   std::vector<CardLine> lines;
   bool refused() const;
   std::string print() const;
-  /// The refused lines alone, one a line.
+  /// The refused lines alone, as error messages.
   std::string refusals() const;
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -117,6 +118,15 @@ struct Case {
   Run run;
   Output output;
   std::string text;                      ///< the file as read, overrides applied, to be kept with the run
+  std::string file;                      ///< its name
+  std::map<std::string, std::string> positions;  ///< FILE:LINE:COL of every key, or "--set"
 };
+
+/// Where a key stands in the file, or its table if it is not given: "FILE:LINE:COL: key", the head of an error message.
+/// Entries of a list are numbered from 0 when there are several: cell.1.count.
+std::string position(const Case& c, std::string key);
+
+/// The path of entry k of `count` [[name]] entries.
+std::string entry_path(const char* name, std::size_t k, std::size_t count);
 
 }  // namespace hemomag::case_

@@ -199,7 +199,7 @@ toml::table& descend(toml::table& root, const std::vector<std::string>& parts, c
       const bool number = parts[k].find_first_not_of("0123456789") == std::string::npos;
       const std::size_t index = number ? std::stoul(parts[k].substr(0, 9)) : 0;
       if (index >= list->size() || (!number && list->size() != 1))
-        throw CaseError("--set " + key + ": there are " + std::to_string(list->size()) + " entries; name one by its number, from 0");
+        throw CaseError("--set " + key + ": there are " + std::to_string(list->size()) + " entries; accepted: the number of one, from 0");
       at = list->get(index);
       if (number) continue;
     }
@@ -210,7 +210,7 @@ toml::table& descend(toml::table& root, const std::vector<std::string>& parts, c
   }
   if (auto* list = at->as_array()) {
     if (list->size() != 1)
-      throw CaseError("--set " + key + ": there are " + std::to_string(list->size()) + " entries; name one by its number, from 0");
+      throw CaseError("--set " + key + ": there are " + std::to_string(list->size()) + " entries; accepted: the number of one, from 0");
     at = list->get(0);
   }
   if (!at->is_table()) throw CaseError("--set " + key + ": is not a key; accepted: table.key");
@@ -251,8 +251,7 @@ std::vector<Table> entries(const Source& source, const char* name) {
   if (!list) source.fail(*node, name, std::string("is ") + type_name(*node) + "; [[" + name + "]] entries are expected");
   for (std::size_t k = 0; k < list->size(); ++k) {
     if (!list->get(k)->is_table()) source.fail(*list->get(k), name, std::string("[[") + name + "]] entries are expected");
-    const std::string path = list->size() == 1 ? name : std::string(name) + "." + std::to_string(k);
-    tables.emplace_back(source, list->get(k)->as_table(), name, path);
+    tables.emplace_back(source, list->get(k)->as_table(), name, entry_path(name, k, list->size()));
   }
   return tables;
 }
@@ -383,6 +382,17 @@ void read_rest(Case& c, const Source& source) {
   c.output.series = output.is_word("series", "never") ? std::nullopt : output.optional_quantity("series");
 }
 
+/// Every key's place, for messages that come after reading.
+void note_positions(Case& c, const Source& source, const toml::node& node, const std::string& path) {
+  if (!path.empty()) c.positions[path] = source.overridden.contains(&node) ? "--set" : source.place(node);
+  if (const auto* table = node.as_table())
+    for (const auto& [name, value] : *table)
+      note_positions(c, source, value, (path.empty() ? "" : path + ".") + std::string(name.str()));
+  if (const auto* list = node.as_array(); list && list->is_array_of_tables())
+    for (std::size_t k = 0; k < list->size(); ++k)
+      note_positions(c, source, *list->get(k), entry_path(path.c_str(), k, list->size()));
+}
+
 std::string effective_text(const Source& source, const std::string& text) {
   if (source.overridden.empty()) return text;
   std::stringstream out;
@@ -391,6 +401,21 @@ std::string effective_text(const Source& source, const std::string& text) {
 }
 
 }  // namespace
+
+std::string entry_path(const char* name, std::size_t k, std::size_t count) {
+  return count == 1 ? name : std::string(name) + "." + std::to_string(k);
+}
+
+std::string position(const Case& c, std::string key) {
+  const std::string full = key;
+  while (!key.empty()) {
+    const auto found = c.positions.find(key);
+    if (found != c.positions.end()) return found->second + (found->second == "--set" ? " " : ": ") + full;
+    const auto dot = key.rfind('.');
+    key.erase(dot == std::string::npos ? 0 : dot);
+  }
+  return c.file + ":1:1: " + full;
+}
 
 Case read_case(const std::string& path, const std::vector<std::string>& overrides) {
   const std::string text = read_text(path);
@@ -420,6 +445,8 @@ Case read_case(const std::string& path, const std::vector<std::string>& override
   read_magnetic(c, section(source, "magnetic"), source.root.contains("magnetic"));
   read_rest(c, source);
   c.text = effective_text(source, text);
+  c.file = path;
+  note_positions(c, source, source.root, "");
   return c;
 }
 

@@ -104,6 +104,10 @@ Pose random_pose(Random& random, const Box& box) {
   return p;
 }
 
+std::string cell_key(const Case& c, std::size_t model) {
+  return position(c, entry_path("cell", model, c.cells.size()) + ".placement");
+}
+
 /// Everything placed so far.
 class Packing {
  public:
@@ -149,13 +153,13 @@ class Packing {
   std::vector<std::vector<Vec3>> placed_;
 };
 
-void place_at_random(System& system, Packing& packing, std::size_t model, int count, Random& random) {
+void place_at_random(System& system, Packing& packing, const Case& c, std::size_t model, int count, Random& random) {
   long tries = 0;
   for (int placed = 0; placed < count; ++tries) {
     if (tries >= most_tries)
-      throw Error("cell.placement: random placement put " + std::to_string(placed) + " of " + std::to_string(count) +
+      throw Error(cell_key(c, model) + ": random placement put " + std::to_string(placed) + " of " + std::to_string(count) +
                   " cells after " + std::to_string(tries) +
-                  " tries; lower the hematocrit, or use a packed state (placement compress)");
+                  " tries; accepted: fewer cells, or a packed state (placement \"compress\")");
     const Pose pose = random_pose(random, packing.box());
     if (!packing.fits(system.models[model], pose)) continue;
     system.cells.push_back({model, packing.add(system.models[model], pose)});
@@ -164,7 +168,7 @@ void place_at_random(System& system, Packing& packing, std::size_t model, int co
 }
 
 /// Cells flat in layers, as close as their gap allows.
-void place_on_grid(System& system, Packing& packing, std::size_t model, int count) {
+void place_on_grid(System& system, Packing& packing, const Case& c, std::size_t model, int count) {
   const auto& x = system.models[model].mesh.x;
   double rim = 0, top = 0;
   for (const Vec3& p : x) rim = std::max(rim, std::hypot(p.x, p.y)), top = std::max(top, std::fabs(p.z));
@@ -174,15 +178,15 @@ void place_on_grid(System& system, Packing& packing, std::size_t model, int coun
   const int nx = static_cast<int>(box.size[0] / side), ny = static_cast<int>(box.size[1] / side),
             nz = static_cast<int>((box.size[2] - 2 * margin) / height);
   if (static_cast<long>(nx) * ny * nz < count)
-    throw Error("cell.placement: a grid has room for " + std::to_string(nx * ny * nz) + " of " + std::to_string(count) +
-                " cells; lower the hematocrit, or use a packed state (placement compress)");
+    throw Error(cell_key(c, model) + ": a grid has room for " + std::to_string(nx * ny * nz) + " of " + std::to_string(count) +
+                " cells; accepted: fewer cells, or a packed state (placement \"compress\")");
   for (int n = 0; n < count; ++n) {
     const int i = n % nx, j = n / nx % ny, k = n / (nx * ny);
     const Pose pose{{(i + 0.5) * box.size[0] / nx, (j + 0.5) * box.size[1] / ny,
                      margin + (k + 0.5) * (box.size[2] - 2 * margin) / nz},
                     {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     if (!packing.fits(system.models[model], pose))
-      throw Error("cell.placement: the grid overlaps cells of another entry; use random placement for one of them");
+      throw Error(cell_key(c, model) + ": the grid overlaps cells of another entry; accepted: random placement of one");
     system.cells.push_back({model, packing.add(system.models[model], pose)});
   }
 }
@@ -196,8 +200,8 @@ void place_carriers(System& system, const Packing& packing, const Case& c, std::
   long tries = 0;
   for (int placed = 0; placed < carrier.count; ++tries) {
     if (tries >= most_tries)
-      throw Error("carrier.count: " + std::to_string(placed) + " of " + std::to_string(carrier.count) +
-                  " carriers found a place outside the cells; use fewer");
+      throw Error(position(c, entry_path("carrier", entry, c.carriers.size()) + ".count") + ": " + std::to_string(placed) + " of " + std::to_string(carrier.count) +
+                  " carriers found a place outside the cells; accepted: fewer");
     Vec3 x;
     for (std::size_t d = 0; d < 3; ++d) {
       const double gap = d == 2 && !box.periodic[2] ? carrier_plate_gap : 0;
@@ -251,9 +255,9 @@ System place(const Case& c) {
       if (c.cells[m].placement != how) continue;
       const int count = cell_count(c, c.cells[m], system.models[m]);
       if (how == Placement::grid)
-        place_on_grid(system, packing, m, count);
+        place_on_grid(system, packing, c, m, count);
       else
-        place_at_random(system, packing, m, count, random);
+        place_at_random(system, packing, c, m, count, random);
     }
   for (std::size_t entry = 0; entry < c.carriers.size(); ++entry) place_carriers(system, packing, c, entry, random);
   return system;

@@ -39,10 +39,10 @@ int prepare(const Case& c, const RunOptions& options, std::string& data, std::st
   const Card card = make_card(c, models);
   if (card.refused()) {
     std::fprintf(stderr, "%s", card.refusals().c_str());
-    return fail("the case is refused; `hemomag check` prints the whole card", bad_input);
+    return bad_input;
   }
   if (std::filesystem::exists(options.out) && !options.force)
-    return fail(options.out + " exists; give another --out, or --force to replace it", bad_input);
+    return fail("--out " + options.out + ": exists already; accepted: another directory, or --force to replace it", bad_input);
   const System system = place(c);
   data = cells_data(c, system);
   script = lammps_script(c, system);
@@ -121,7 +121,8 @@ int run_case(const Case& c, const RunOptions& options, MPI_Comm comm) {
         }
       }
     } catch (const Error& e) {
-      code = fail(e.what(), bad_input);
+      std::fprintf(stderr, "%s\n", e.what());
+      code = bad_input;
     }
   }
   code = agree(code, comm);
