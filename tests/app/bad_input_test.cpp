@@ -1,5 +1,6 @@
 // Malformed case files through the real program: exit code 2, one line with file, line, column, key and what is
 // accepted, and nothing written.
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <filesystem>
@@ -9,6 +10,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 namespace {
 
