@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include <udunits2.h>
 
@@ -58,8 +59,10 @@ bool plain_unit(std::string_view unit) {
 }
 
 Unit parse_unit(std::string_view text) {
-  // Symbols that UDUNITS reads otherwise or not at all.
-  const std::string spelled = text == "G" ? "gauss" : text == "mG" ? "milligauss" : std::string(text);
+  // Symbols of the field that UDUNITS reads otherwise or not at all.
+  std::string spelled(text);
+  for (const auto& [symbol, name] : {std::pair{"G", "gauss"}, {"mG", "milligauss"}, {"P", "poise"}, {"cP", "centipoise"}})
+    if (text == symbol) spelled = name;
   return Unit(ut_parse(units(), spelled.c_str(), UT_UTF8));
 }
 
