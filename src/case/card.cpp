@@ -134,24 +134,41 @@ class CardWriter {
   /// Strength and stiffness of carrier-carrier contact in the strongest field.
   void contact(const Carrier& carrier) {
     const double d = 2 * carrier.radius;
-    // With B over sqrt(mu*) the laws of the magnetic room, in which mu* is one, give SI forces.
     const double m = susceptible_volume(carrier) * strongest_field(c_) / std::sqrt(vacuum_permeability);
     const double lambda = m * m / (4 * std::numbers::pi * d * d * d * kBT);
     add("dipole strength lambda", text("%.3g (contact energy over 2 kBT)", lambda));
-    const double pull = magnetic::contact_pull(m, m, d);
-    const double k = c_.contact.repulsion == Repulsion::soft ? magnetic::soft_stiffness(pull, soft_kappa, d)
-                                                              : magnetic::paper_stiffness(pull, 0.1 * kBT, 0.1 * carrier.radius);
-    const double substeps = std::max(1.0, std::ceil(2 * k * units_.dt / bare_friction(c_, carrier)));
+    const double substeps = std::max(1.0, std::ceil(2 * contact_stiffness(carrier) * units_.dt / bare_friction(c_, carrier)));
     add("contact sub-steps", text("%.0f", substeps), substeps <= most_substeps ? Verdict::fine : Verdict::refused,
         text("at most %d: lower B0 or dt", most_substeps));
+  }
+
+  /// Contact stiffness in the strongest field [N/m]; with B over sqrt(mu*) the laws of the magnetic room, in which mu* is
+  /// one, give SI forces.
+  double contact_stiffness(const Carrier& carrier) const {
+    if (!c_.magnetic.dipoles) return 0;
+    const double d = 2 * carrier.radius;
+    const double m = susceptible_volume(carrier) * strongest_field(c_) / std::sqrt(vacuum_permeability);
+    const double pull = magnetic::contact_pull(m, m, d);
+    return c_.contact.repulsion == Repulsion::soft ? magnetic::soft_stiffness(pull, soft_kappa, d)
+                                                   : magnetic::paper_stiffness(pull, 0.1 * kBT, 0.1 * carrier.radius);
+  }
+
+  /// Largest stable 8 k dt/Gamma of the bonds of a chain whose contacts add the rate c = 4 k_contact dt/Gamma in their own
+  /// n = ceil(c/2) sub-steps while the bonds stand still: the stiffest mode is multiplied by q - (b/c)(1 - q),
+  /// q = (1 - c/n)^n, in a step, which has to stay above -1. Without contact forces the limit is 2.
+  static double bond_limit(double c) {
+    if (c < 1e-9) return 2;
+    const double n = std::max(1.0, std::ceil(c / 2));
+    const double q = std::pow(1 - c / n, n);
+    return c * (1 + q) / (1 - q);
   }
 
   void worm(const Carrier& carrier) {
     const double friction = bare_friction(c_, carrier);
     const double ratio = 8 * carrier.stretching * units_.dt / friction;
-    const double largest = 2 * friction / (8 * units_.dt);
-    add("worm bond stability", text("8 k dt/Gamma = %.3g", ratio), ratio < 2 ? Verdict::fine : Verdict::refused,
-        text("under 2: the largest stable stretching is %.3g uN/m here", largest * 1e6));
+    const double limit = bond_limit(4 * contact_stiffness(carrier) * units_.dt / friction);
+    add("worm bond stability", text("8 k dt/Gamma = %.3g", ratio), ratio < limit ? Verdict::fine : Verdict::refused,
+        text("under %.3g: the largest stable stretching is %.3g uN/m here", limit, limit * friction / (8 * units_.dt) * 1e6));
     const double length = 2 * carrier.radius * carrier.beads;
     const double box = std::min({c_.channel.size[0], c_.channel.size[1], c_.channel.size[2]});
     add("worm length", text("%.4g um", length * 1e6), length < box ? Verdict::fine : Verdict::refused,

@@ -140,9 +140,6 @@ int run_case(const Case& c, const RunOptions& options, MPI_Comm comm) {
       io::replace_file("summary.json", results.dump(2) + "\n");
       print_summary(results, options.out);
     }
-  } catch (const lammps::OneRankError& e) {
-    fail(e.what(), unstable);
-    MPI_Abort(comm, unstable);
   } catch (const std::exception& e) {
     code = unstable;
     if (rank == 0) fail(e.what(), code);

@@ -13,6 +13,7 @@
 #include "utils.h"
 
 #include "base/vec3.hpp"
+#include "lammps/compat.hpp"
 
 using namespace LAMMPS_NS;
 using hemomag::Vec3;
@@ -75,7 +76,7 @@ void BondHemoWLC::compute(int eflag, int vflag) {
 }
 
 void BondHemoWLC::overstretched(int i, int j, double length, double limit) const {
-  error->one(FLERR, "bond_style hemo/wlc: step " + std::to_string(update->ntimestep) + ", rank " +
+  hemomag::lammps::fail_here(lmp, FLERR, "bond_style hemo/wlc: step " + std::to_string(update->ntimestep) + ", rank " +
                         std::to_string(comm->me) + ": the edge between atoms " + std::to_string(atom->tag[i]) +
                         " and " + std::to_string(atom->tag[j]) + " is " + std::to_string(length) +
                         " long, its limit is " + std::to_string(limit) +

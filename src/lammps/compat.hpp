@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdio>
 #include <string>
 
 #include "error.h"
@@ -18,6 +19,13 @@ Style* find_fix(LAMMPS_NS::LAMMPS* lmp, const char* style) {
   for (int i = 0; i < lmp->modify->nfix; ++i)
     if (std::string(lmp->modify->fix[i]->style) == style) return dynamic_cast<Style*>(lmp->modify->fix[i]);
   return nullptr;
+}
+
+/// A fatal error that this rank alone has met. LAMMPS 29 Sep 2021 aborts all ranks here, with its message on the screen,
+/// which a quiet run has turned off: then the message goes to standard error.
+[[noreturn]] inline void fail_here(LAMMPS_NS::LAMMPS* lmp, const char* file, int line, const std::string& message) {
+  if (!lmp->screen) std::fprintf(stderr, "hemomag: %s\n", message.c_str());
+  lmp->error->one(file, line, message);
 }
 
 /// Run `work`, handing a hemomag::Error to LAMMPS as a fatal error on every rank.

@@ -186,7 +186,7 @@ void FixHemoFluid::velocity_at_atoms(int bits, double** v) {
 
 void FixHemoFluid::lost_point(long i, const char* doing) const {
   const double* x = atom->x[i];
-  error->one(FLERR, "fix hemo/fluid: step " + std::to_string(update->ntimestep) + ", rank " +
+  hemomag::lammps::fail_here(lmp, FLERR, "fix hemo/fluid: step " + std::to_string(update->ntimestep) + ", rank " +
                         std::to_string(comm->me) + ": atom " + std::to_string(atom->tag[i]) + " at " +
                         std::to_string(x[0]) + " " + std::to_string(x[1]) + " " + std::to_string(x[2]) +
                         " is outside the channel or not finite while " + doing +

@@ -70,7 +70,7 @@ void FixHemoSeries::record() {
   try {
     file_->row({time, in_layer_, probability_});
   } catch (const hemomag::Error& e) {
-    error->one(FLERR, std::string(e.what()));
+    hemomag::lammps::fail_here(lmp, FLERR, std::string(e.what()));
   }
 }
 

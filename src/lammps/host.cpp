@@ -1,6 +1,6 @@
 #include "lammps/host.hpp"
 
-#include <typeinfo>
+#include <exception>
 
 #include "input.h"
 #include "lammps.h"
@@ -19,7 +19,7 @@ Host::Host(std::vector<std::string> arguments, MPI_Comm comm) : arguments_(std::
 
 Host::~Host() = default;
 
-/// LAMMPS was built with exceptions, whose types its package does not ship: they are told apart by name.
+/// LAMMPS was built with exceptions, whose type its package does not ship.
 template <class Work>
 void Host::guarded(Work work) {
   try {
@@ -27,10 +27,8 @@ void Host::guarded(Work work) {
   } catch (const Error&) {
     throw;
   } catch (const std::exception& e) {
-    const bool one_rank = std::string(typeid(e).name()).find("Abort") != std::string::npos;
     std::string message = e.what();
     while (!message.empty() && message.back() == '\n') message.pop_back();
-    if (one_rank) throw OneRankError(message);
     throw Error(message);
   }
 }

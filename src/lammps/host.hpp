@@ -13,13 +13,8 @@ class LAMMPS;
 
 namespace hemomag::lammps {
 
-/// A fatal error that only some ranks met: the others may be waiting for them, so that the run has to be aborted.
-class OneRankError : public Error {
- public:
-  using Error::Error;
-};
-
-/// One LAMMPS instance that knows the hemo styles. Its fatal errors arrive as Error (met by all ranks) or OneRankError.
+/// One LAMMPS instance that knows the hemo styles. Fatal errors that all ranks meet arrive as
+/// Error; those that one rank meets alone end the program through MPI_Abort, as in LAMMPS itself.
 class Host {
  public:
   /// @param arguments  LAMMPS command-line options, without the program name, e.g. {"-screen", "none"}

@@ -104,7 +104,7 @@ magnetic::PairForce PairHemoDipole::force_between(int i, int j, const Vec3& r) {
     repulsion = magnetic::soft_repulsion(pull, p.kappa, p.contact_distance, r);
   } else {
     if (norm(r) <= p.contact_distance)
-      error->one(FLERR, "pair_style hemo/dipole: step " + std::to_string(update->ntimestep) + ": carriers " +
+      hemomag::lammps::fail_here(lmp, FLERR, "pair_style hemo/dipole: step " + std::to_string(update->ntimestep) + ": carriers " +
                             std::to_string(atom->tag[i]) + " and " + std::to_string(atom->tag[j]) +
                             " touch, where the repulsion of Eq. 26 is singular (use soft)");
     repulsion = magnetic::paper_repulsion(p.epsilon, p.sigma, p.contact_distance, r);
