@@ -20,15 +20,16 @@ struct ChannelBox {
   bool periodic_z = false;
 };
 
-/// How many times each point is enclosed by these triangles, as far as they tell: the sum over all ranks' triangles of
-/// closed surfaces is 1 for a point inside a cell and 0 outside.
+/// How many times each point is enclosed by these triangles, as far as they tell: the sum over all
+/// ranks' triangles of closed surfaces is 1 for a point inside a cell and 0 outside.
 ///
-/// A ray from the point along +z counts each triangle it crosses with the sense of its normal. With a periodic z a
-/// triangle counts once for each image of the point below it, floor((z_triangle - z)/L_z): counts of different
-/// images differ by the same number for every crossing of a closed surface and cancel.
-/// A ray through an edge belongs to one of its triangles: the edge's side is decided in the order of its tags, the same
-/// way from both.
-/// Cost: linear in triangles and points for evenly spread points (they are sorted into columns).
-std::vector<int> enclosure(std::span<const Vec3> points, std::span<const SurfaceTriangle> triangles, const ChannelBox& box);
+/// A ray from the point along +z counts each triangle it crosses with the sense of its normal. With
+/// a periodic z a triangle counts once for each image of the point below it, floor((z_triangle -
+/// z)/L_z): counts of different images differ by the same number for every crossing of a closed
+/// surface and cancel. A ray through an edge belongs to one of its triangles: the edge's side is
+/// decided in the order of its tags, the same way from both. Cost: linear in triangles and points
+/// for evenly spread points (they are sorted into columns).
+std::vector<int> enclosure(std::span<const Vec3> points, std::span<const SurfaceTriangle> triangles,
+                           const ChannelBox& box);
 
 }  // namespace hemomag::analysis

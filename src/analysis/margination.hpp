@@ -15,9 +15,12 @@ inline long in_layer(std::span<const double> z, double layer, double height, Lay
   return n;
 }
 
-/// Margination probability at an instant, (n_f(t) - n_f(0))/(N - n_f(0)) (Eq. 46); 0 when all started in the layer.
+/// Margination probability at an instant, (n_f(t) - n_f(0))/(N - n_f(0)) (Eq. 46); 0 when all
+/// started in the layer.
 inline double margination_probability(long now, long at_start, long total) {
-  return total > at_start ? static_cast<double>(now - at_start) / static_cast<double>(total - at_start) : 0.0;
+  return total > at_start
+             ? static_cast<double>(now - at_start) / static_cast<double>(total - at_start)
+             : 0.0;
 }
 
 }  // namespace hemomag::analysis

@@ -11,14 +11,15 @@
 #include "case/run.hpp"
 #include "lammps/host.hpp"
 
-// The command line: docs/command_line.md. Exit codes: 0 done, 1 a LAMMPS script failed, 2 bad input, 3 unstable,
-// 4 file trouble.
+// The command line: docs/command_line.md. Exit codes: 0 done, 1 a LAMMPS script failed, 2 bad
+// input, 3 unstable, 4 file trouble.
 
 namespace {
 
 namespace case_ = hemomag::case_;
 
-/// What MPI_Abort returns: LAMMPS always says 1, but a case that breaks off in mid-run went unstable.
+/// What MPI_Abort returns: LAMMPS always says 1, but a case that breaks off in mid-run went
+/// unstable.
 int abort_code = 1;
 
 int rank() {
@@ -56,7 +57,9 @@ int lmp(const std::vector<std::string>& arguments) {
 }
 
 int not_available(const char* what) {
-  if (rank() == 0) std::fprintf(stderr, "hemomag: %s is not available in this version; accepted: run, check, lmp\n", what);
+  if (rank() == 0)
+    std::fprintf(stderr,
+                 "hemomag: %s is not available in this version; accepted: run, check, lmp\n", what);
   return 2;
 }
 
@@ -69,19 +72,26 @@ int parse_and_run(int argc, char** argv) {
   std::vector<std::string> overrides;
   bool force = false, resume = false;
   auto* run = app.add_subcommand("run", "run a case");
-  auto* card = app.add_subcommand("check", "print the unit and stability card of a case; runs nothing");
+  auto* card =
+      app.add_subcommand("check", "print the unit and stability card of a case; runs nothing");
   for (auto* command : {run, card}) {
     command->add_option("CASE", path, "case file")->required();
-    command->add_option("--set", overrides, "override a key: key.path=value")->expected(1)->take_all();
+    command->add_option("--set", overrides, "override a key: key.path=value")
+        ->expected(1)
+        ->take_all();
   }
   run->add_option("--out", out, "run directory (default: out/NAME)");
   run->add_flag("--force", force, "replace an existing run directory");
   run->add_flag("--resume", resume, "go on from the last checkpoint (not in this version)");
   app.add_subcommand("lmp", "LAMMPS with the hemo styles: hemomag lmp -in FILE")->prefix_command();
-  const std::vector<std::pair<const char*, const char*>> later = {{"pack", "only the initial state"}, {"sweep", "one run per value of a key"},
-                                                                  {"validate", "compare with theory and experiment"}, {"bench", "measure speed"},
-                                                                  {"report", "one page of a finished run"}};
-  for (const auto& [name, help] : later) app.add_subcommand(name, std::string(help) + " (not in this version)")->prefix_command();
+  const std::vector<std::pair<const char*, const char*>> later = {
+      {"pack", "only the initial state"},
+      {"sweep", "one run per value of a key"},
+      {"validate", "compare with theory and experiment"},
+      {"bench", "measure speed"},
+      {"report", "one page of a finished run"}};
+  for (const auto& [name, help] : later)
+    app.add_subcommand(name, std::string(help) + " (not in this version)")->prefix_command();
 
   try {
     app.parse(argc, argv);
@@ -95,13 +105,15 @@ int parse_and_run(int argc, char** argv) {
   if (app.got_subcommand("check")) return with_case(path, overrides, check);
   if (out.empty()) out = "out/" + std::filesystem::path(path).stem().string();
   abort_code = 3;
-  return with_case(path, overrides, [&](const case_::Case& c) { return case_::run_case(c, {out, force}, MPI_COMM_WORLD); });
+  return with_case(path, overrides, [&](const case_::Case& c) {
+    return case_::run_case(c, {out, force}, MPI_COMM_WORLD);
+  });
 }
 
 }  // namespace
 
-/// MPI's profiling interface lets a program see its own calls: the one by which LAMMPS ends a run in which a single rank
-/// met an error gets the exit code of this program.
+/// MPI's profiling interface lets a program see its own calls: the one by which LAMMPS ends a run
+/// in which a single rank met an error gets the exit code of this program.
 extern "C" int MPI_Abort(MPI_Comm comm, int) {
   std::fprintf(stderr, "hemomag: the run broke off; the end of its log.lammps says where\n");
   return PMPI_Abort(comm, abort_code);
@@ -110,7 +122,8 @@ extern "C" int MPI_Abort(MPI_Comm comm, int) {
 int main(int argc, char** argv) {
   MPI_Init(&argc, &argv);
   // LAMMPS has options of its own: they go through untouched.
-  const int code = argc > 1 && std::string(argv[1]) == "lmp" ? lmp({argv + 2, argv + argc}) : parse_and_run(argc, argv);
+  const int code = argc > 1 && std::string(argv[1]) == "lmp" ? lmp({argv + 2, argv + argc})
+                                                             : parse_and_run(argc, argv);
   MPI_Finalize();
   return code;
 }

@@ -10,9 +10,8 @@ namespace hemomag {
 inline constexpr std::size_t cache_line = 64;
 
 /// A zeroed array on a cache-line boundary, fixed in size.
-template <class T>
-class AlignedArray {
- public:
+template <class T> class AlignedArray {
+public:
   AlignedArray() = default;
   explicit AlignedArray(std::size_t count) : size_(count) {
     const std::size_t bytes = (count * sizeof(T) + cache_line - 1) / cache_line * cache_line;
@@ -27,7 +26,7 @@ class AlignedArray {
   T& operator[](std::size_t i) { return data_.get()[i]; }
   const T& operator[](std::size_t i) const { return data_.get()[i]; }
 
- private:
+private:
   struct Free {
     void operator()(T* p) const { std::free(p); }
   };

@@ -24,9 +24,12 @@ SimdLevel simd_level() {
 
 const char* name(SimdLevel level) {
   switch (level) {
-    case SimdLevel::sse2: return "sse2";
-    case SimdLevel::avx2: return "avx2";
-    case SimdLevel::avx512: return "avx512";
+  case SimdLevel::sse2:
+    return "sse2";
+  case SimdLevel::avx2:
+    return "avx2";
+  case SimdLevel::avx512:
+    return "avx512";
   }
   return "?";
 }

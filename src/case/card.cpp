@@ -32,8 +32,9 @@ Verdict below(double value, double fine, double refused) {
 }
 
 class CardWriter {
- public:
-  CardWriter(const Case& c, const std::vector<CellModel>& models) : c_(c), models_(models), units_(lattice_units(c)) {}
+public:
+  CardWriter(const Case& c, const std::vector<CellModel>& models)
+      : c_(c), models_(models), units_(lattice_units(c)) {}
 
   Card write() {
     key_ = "numerics";
@@ -52,21 +53,26 @@ class CardWriter {
     return card_;
   }
 
- private:
-  void add(const char* name, std::string value, Verdict verdict = Verdict::fine, std::string advice = {}) {
-    card_.lines.push_back({name, std::move(value), verdict, verdict == Verdict::fine ? std::string() : std::move(advice), position(c_, key_)});
+private:
+  void add(const char* name, std::string value, Verdict verdict = Verdict::fine,
+           std::string advice = {}) {
+    card_.lines.push_back({name, std::move(value), verdict,
+                           verdict == Verdict::fine ? std::string() : std::move(advice),
+                           position(c_, key_)});
   }
 
   void scales() {
     const auto n = nodes(c_);
     add("grid", text("%d x %d x %d nodes, dx = %.4g um", n[0], n[1], n[2], units_.dx * 1e6));
-    add("time step", text("dt = %.4g us, %ld steps, %.4g s", units_.dt * 1e6, steps(c_), static_cast<double>(steps(c_)) * units_.dt));
+    add("time step", text("dt = %.4g us, %ld steps, %.4g s", units_.dt * 1e6, steps(c_),
+                          static_cast<double>(steps(c_)) * units_.dt));
     const double tau = c_.numerics.tau;
     add("tau", text("%.4g", tau), tau >= 0.6 && tau <= 1.5 ? Verdict::fine : Verdict::doubtful,
-        tau > 1.5 ? "unsteady flow loses accuracy above 1.5; lower tau" : "close to the limit of stability 0.5; raise tau");
+        tau > 1.5 ? "unsteady flow loses accuracy above 1.5; lower tau"
+                  : "close to the limit of stability 0.5; raise tau");
     const double factor = units_.density / c_.fluid.density;
-    add("inertia scaling", text("density x %.4g", factor), factor > 500 ? Verdict::doubtful : Verdict::fine,
-        "lower numerics.cell_reynolds or dt");
+    add("inertia scaling", text("density x %.4g", factor),
+        factor > 500 ? Verdict::doubtful : Verdict::fine, "lower numerics.cell_reynolds or dt");
   }
 
   void flow() {
@@ -76,13 +82,16 @@ class CardWriter {
     const double g = std::fabs(c_.channel.body_force[1]);
     if (c_.channel.boundary == Boundary::plates) speed += g * H * H / (8 * mu);
     const double mach = speed / units_.velocity() * std::sqrt(3.0);
-    add("wall Mach number", text("%.3g (fastest flow %.4g mm/s)", mach, speed * 1e3), below(mach, 0.15, 0.3),
+    add("wall Mach number", text("%.3g (fastest flow %.4g mm/s)", mach, speed * 1e3),
+        below(mach, 0.15, 0.3),
         "under 0.3; lower cell_reynolds or tau, or use plates = \"symmetric\"");
     if (c_.channel.shear_rate <= 0) return;
     const double re_cell = units_.density * c_.channel.shear_rate * cell_radius * cell_radius / mu;
     const double re_channel = units_.density * c_.channel.shear_rate * H * H / mu;
-    add("Reynolds number, cell", text("%.3g", re_cell), below(re_cell, 0.5000001, 2), "lower numerics.cell_reynolds");
-    add("Reynolds number, channel", text("%.3g", re_channel), below(re_channel, 20, 100), "lower numerics.cell_reynolds");
+    add("Reynolds number, cell", text("%.3g", re_cell), below(re_cell, 0.5000001, 2),
+        "lower numerics.cell_reynolds");
+    add("Reynolds number, channel", text("%.3g", re_channel), below(re_channel, 20, 100),
+        "lower numerics.cell_reynolds");
   }
 
   void cells(std::size_t m) {
@@ -90,24 +99,31 @@ class CardWriter {
     const CellModel& model = models_[m];
     const int count = cell_count(c_, cell, model);
     const auto& s = c_.channel.size;
-    add("cells", text("%d of %d vertices, hematocrit %.4g", count, cell.vertices, count * model.volume / (s[0] * s[1] * s[2])));
+    add("cells", text("%d of %d vertices, hematocrit %.4g", count, cell.vertices,
+                      count * model.volume / (s[0] * s[1] * s[2])));
     const double eta = units_.pressure() * units_.dt;  // the unit of viscosity
-    const double S = (cell.area_modulus_local + cell.area_modulus_global + 2 * cell.shear_modulus) / units_.tension() /
-                     (2 * c_.fluid.viscosity / eta);
+    const double S = (cell.area_modulus_local + cell.area_modulus_global + 2 * cell.shear_modulus) /
+                     units_.tension() / (2 * c_.fluid.viscosity / eta);
     add("membrane stability S", text("%.3g", S), below(S, 5, 15),
-        "(k_d + k_a + 2 mu0)/(2 eta) in lattice units under 15; lower cell_reynolds or area_modulus_local");
+        "(k_d + k_a + 2 mu0)/(2 eta) in lattice units under 15; lower cell_reynolds or "
+        "area_modulus_local");
     const double edge = model.longest_edge / units_.dx;
-    add("longest mesh edge", text("%.3g dx", edge), below(edge, 1.5, 4), "more vertices or a larger dx keep the membrane tight");
+    add("longest mesh edge", text("%.3g dx", edge), below(edge, 1.5, 4),
+        "more vertices or a larger dx keep the membrane tight");
     const double finest = std::sqrt(model.area / cell.vertices) / units_.dx;
-    add("mesh spacing", text("%.3g dx", finest), finest >= 0.3 ? Verdict::fine : Verdict::doubtful, "fewer vertices or a smaller dx");
+    add("mesh spacing", text("%.3g dx", finest), finest >= 0.3 ? Verdict::fine : Verdict::doubtful,
+        "fewer vertices or a smaller dx");
     if (c_.channel.shear_rate > 0)
-      add("capillary number", text("Ca = %.3g", c_.fluid.viscosity * c_.channel.shear_rate * cell_radius / cell.shear_modulus));
+      add("capillary number", text("Ca = %.3g", c_.fluid.viscosity * c_.channel.shear_rate *
+                                                    cell_radius / cell.shear_modulus));
   }
 
   void carriers(const Carrier& carrier) {
     const double R = ibm::hydrodynamic_radius(ibm::delta_kernel(c_.numerics.kernel)) * units_.dx;
     const bool too_large = carrier.feedback && carrier.radius >= R;
-    add("carriers", text("%d of radius %.4g nm%s", carrier.count, carrier.radius * 1e9, carrier.feedback ? "" : ", one-way"),
+    add("carriers",
+        text("%d of radius %.4g nm%s", carrier.count, carrier.radius * 1e9,
+             carrier.feedback ? "" : ", one-way"),
         too_large ? Verdict::refused : Verdict::fine,
         text("radius under the kernel's own, %.4g nm; use a larger dx", R * 1e9));
     if (too_large) return;
@@ -124,38 +140,49 @@ class CardWriter {
     const double drift = force / stokes_friction(c_, carrier), per_step = drift / units_.velocity();
     add("largest pull", text("%.4g pN at %.4g T", force * 1e12, B));
     if (slope > 0)
-      add("magnetic time T_e", text("%.4g ms", 1e3 * stokes_friction(c_, carrier) * vacuum_permeability / (susceptible_volume(carrier) * slope * slope)));
-    add("drift", text("%.4g mm/s, %.3g dx a step", drift * 1e3, per_step), below(per_step, 0.05, 0.1),
-        text("under 0.1 dx a step: at most %.3g T here, or a smaller dt", B * std::sqrt(0.1 / per_step)));
+      add("magnetic time T_e",
+          text("%.4g ms", 1e3 * stokes_friction(c_, carrier) * vacuum_permeability /
+                              (susceptible_volume(carrier) * slope * slope)));
+    add("drift", text("%.4g mm/s, %.3g dx a step", drift * 1e3, per_step),
+        below(per_step, 0.05, 0.1),
+        text("under 0.1 dx a step: at most %.3g T here, or a smaller dt",
+             B * std::sqrt(0.1 / per_step)));
     const double re = units_.density * drift * 2 * carrier.radius / c_.fluid.viscosity;
-    add("Reynolds number, carrier", text("%.3g", re), below(re, 0.1, 0.5), "lower B0 or cell_reynolds");
+    add("Reynolds number, carrier", text("%.3g", re), below(re, 0.1, 0.5),
+        "lower B0 or cell_reynolds");
   }
 
   /// Strength and stiffness of carrier-carrier contact in the strongest field.
   void contact(const Carrier& carrier) {
     const double d = 2 * carrier.radius;
-    const double m = susceptible_volume(carrier) * strongest_field(c_) / std::sqrt(vacuum_permeability);
+    const double m =
+        susceptible_volume(carrier) * strongest_field(c_) / std::sqrt(vacuum_permeability);
     const double lambda = m * m / (4 * std::numbers::pi * d * d * d * kBT);
     add("dipole strength lambda", text("%.3g (contact energy over 2 kBT)", lambda));
-    const double substeps = std::max(1.0, std::ceil(2 * contact_stiffness(carrier) * units_.dt / bare_friction(c_, carrier)));
-    add("contact sub-steps", text("%.0f", substeps), substeps <= most_substeps ? Verdict::fine : Verdict::refused,
+    const double substeps = std::max(
+        1.0, std::ceil(2 * contact_stiffness(carrier) * units_.dt / bare_friction(c_, carrier)));
+    add("contact sub-steps", text("%.0f", substeps),
+        substeps <= most_substeps ? Verdict::fine : Verdict::refused,
         text("at most %d: lower B0 or dt", most_substeps));
   }
 
-  /// Contact stiffness in the strongest field [N/m]; with B over sqrt(mu*) the laws of the magnetic room, in which mu* is
-  /// one, give SI forces.
+  /// Contact stiffness in the strongest field [N/m]; with B over sqrt(mu*) the laws of the magnetic
+  /// room, in which mu* is one, give SI forces.
   double contact_stiffness(const Carrier& carrier) const {
     if (!c_.magnetic.dipoles) return 0;
     const double d = 2 * carrier.radius;
-    const double m = susceptible_volume(carrier) * strongest_field(c_) / std::sqrt(vacuum_permeability);
+    const double m =
+        susceptible_volume(carrier) * strongest_field(c_) / std::sqrt(vacuum_permeability);
     const double pull = magnetic::contact_pull(m, m, d);
-    return c_.contact.repulsion == Repulsion::soft ? magnetic::soft_stiffness(pull, soft_kappa, d)
-                                                   : magnetic::paper_stiffness(pull, 0.1 * kBT, 0.1 * carrier.radius);
+    return c_.contact.repulsion == Repulsion::soft
+               ? magnetic::soft_stiffness(pull, soft_kappa, d)
+               : magnetic::paper_stiffness(pull, 0.1 * kBT, 0.1 * carrier.radius);
   }
 
-  /// Largest stable 8 k dt/Gamma of the bonds of a chain whose contacts add the rate c = 4 k_contact dt/Gamma in their own
-  /// n = ceil(c/2) sub-steps while the bonds stand still: the stiffest mode is multiplied by q - (b/c)(1 - q),
-  /// q = (1 - c/n)^n, in a step, which has to stay above -1. Without contact forces the limit is 2.
+  /// Largest stable 8 k dt/Gamma of the bonds of a chain whose contacts add the rate c = 4
+  /// k_contact dt/Gamma in their own n = ceil(c/2) sub-steps while the bonds stand still: the
+  /// stiffest mode is multiplied by q - (b/c)(1 - q), q = (1 - c/n)^n, in a step, which has to stay
+  /// above -1. Without contact forces the limit is 2.
   static double bond_limit(double c) {
     if (c < 1e-9) return 2;
     const double n = std::max(1.0, std::ceil(c / 2));
@@ -167,16 +194,20 @@ class CardWriter {
     const double friction = bare_friction(c_, carrier);
     const double ratio = 8 * carrier.stretching * units_.dt / friction;
     const double limit = bond_limit(4 * contact_stiffness(carrier) * units_.dt / friction);
-    add("worm bond stability", text("8 k dt/Gamma = %.3g", ratio), ratio < limit ? Verdict::fine : Verdict::refused,
-        text("under %.3g: the largest stable stretching is %.3g uN/m here", limit, limit * friction / (8 * units_.dt) * 1e6));
+    add("worm bond stability", text("8 k dt/Gamma = %.3g", ratio),
+        ratio < limit ? Verdict::fine : Verdict::refused,
+        text("under %.3g: the largest stable stretching is %.3g uN/m here", limit,
+             limit * friction / (8 * units_.dt) * 1e6));
     const double length = 2 * carrier.radius * carrier.beads;
     const double box = std::min({c_.channel.size[0], c_.channel.size[1], c_.channel.size[2]});
-    add("worm length", text("%.4g um", length * 1e6), length < box ? Verdict::fine : Verdict::refused,
-        "shorter than the channel");
-    // The bending mode of a discrete chain is stiffest at 16 kappa 2/l0^2 for U = kappa (theta - theta0)^2.
-    const double bending = 32 * carrier.bending / (4 * carrier.radius * carrier.radius) * units_.dt / friction;
-    add("worm bending stability", text("32 kappa dt/(l0^2 Gamma) = %.3g", bending), below(bending, 1, 2),
-        "under 2: lower carrier.bending or dt");
+    add("worm length", text("%.4g um", length * 1e6),
+        length < box ? Verdict::fine : Verdict::refused, "shorter than the channel");
+    // The bending mode of a discrete chain is stiffest at 16 kappa 2/l0^2 for U = kappa (theta -
+    // theta0)^2.
+    const double bending =
+        32 * carrier.bending / (4 * carrier.radius * carrier.radius) * units_.dt / friction;
+    add("worm bending stability", text("32 kappa dt/(l0^2 Gamma) = %.3g", bending),
+        below(bending, 1, 2), "under 2: lower carrier.bending or dt");
   }
 
   void cost() {
@@ -184,13 +215,15 @@ class CardWriter {
     const double grid = static_cast<double>(n[0]) * n[1] * n[2];
     double vertices = 0;
     for (std::size_t m = 0; m < c_.cells.size(); ++m)
-      vertices += static_cast<double>(cell_count(c_, c_.cells[m], models_[m])) * c_.cells[m].vertices;
-    // Measured on two cores: 10 ns a node, 250 ns a vertex and step; 200 bytes a node, 8 kB a vertex with its lists.
+      vertices +=
+          static_cast<double>(cell_count(c_, c_.cells[m], models_[m])) * c_.cells[m].vertices;
+    // Measured on two cores: 10 ns a node, 250 ns a vertex and step; 200 bytes a node, 8 kB a
+    // vertex with its lists.
     const double seconds = static_cast<double>(steps(c_)) * (grid * 10e-9 + vertices * 250e-9);
     add("memory", text("about %.0f MB", 60 + (grid * 230 + vertices * 8e3) / 1e6));
-    add("time", seconds < 120 ? text("about %.0f s on 2 cores", seconds)
-                              : seconds < 7200 ? text("about %.0f minutes on 2 cores", seconds / 60)
-                                               : text("about %.0f hours on 2 cores", seconds / 3600));
+    add("time", seconds < 120    ? text("about %.0f s on 2 cores", seconds)
+                : seconds < 7200 ? text("about %.0f minutes on 2 cores", seconds / 60)
+                                 : text("about %.0f hours on 2 cores", seconds / 3600));
   }
 
   const Case& c_;
@@ -213,7 +246,8 @@ std::string print_line(const CardLine& l) {
 }  // namespace
 
 bool Card::refused() const {
-  return std::any_of(lines.begin(), lines.end(), [](const CardLine& l) { return l.verdict == Verdict::refused; });
+  return std::any_of(lines.begin(), lines.end(),
+                     [](const CardLine& l) { return l.verdict == Verdict::refused; });
 }
 
 std::string Card::print() const {
@@ -225,10 +259,14 @@ std::string Card::print() const {
 std::string Card::refusals() const {
   std::string all;
   for (const CardLine& l : lines)
-    if (l.verdict == Verdict::refused) all += l.position + ": " + l.name + ", " + l.value + ", is refused; accepted: " + l.advice + "\n";
+    if (l.verdict == Verdict::refused)
+      all += l.position + ": " + l.name + ", " + l.value + ", is refused; accepted: " + l.advice +
+             "\n";
   return all;
 }
 
-Card make_card(const Case& c, const std::vector<CellModel>& models) { return CardWriter(c, models).write(); }
+Card make_card(const Case& c, const std::vector<CellModel>& models) {
+  return CardWriter(c, models).write();
+}
 
 }  // namespace hemomag::case_

@@ -18,7 +18,8 @@ struct CardLine {
   std::string position;  ///< of the part of the case file it is about
 };
 
-/// What a case means before it is run: units, dimensionless numbers, stability, cost. Limits: docs/card.md.
+/// What a case means before it is run: units, dimensionless numbers, stability, cost. Limits:
+/// docs/card.md.
 struct Card {
   std::vector<CardLine> lines;
   bool refused() const;

@@ -6,7 +6,8 @@
 #include <string>
 #include <vector>
 
-// A case as the user means it, in SI units, checked key by key. What the keys mean: docs/case_file.md.
+// A case as the user means it, in SI units, checked key by key. What the keys mean:
+// docs/case_file.md.
 
 namespace hemomag::case_ {
 
@@ -20,23 +21,23 @@ enum class FieldKind { none, uniform, gradient };
 enum class LayerWalls { lower, both };
 
 struct Channel {
-  std::array<double, 3> size{};               ///< [m]; y is the flow direction, z between the plates
+  std::array<double, 3> size{};  ///< [m]; y is the flow direction, z between the plates
   Boundary boundary = Boundary::plates;
   Plates plates = Plates::lower_rest;
-  double shear_rate = 0;                      ///< [1/s], along +y
-  std::array<double, 3> body_force{};         ///< [N/m3]; a single value in the file acts along +y
+  double shear_rate = 0;               ///< [1/s], along +y
+  std::array<double, 3> body_force{};  ///< [N/m3]; a single value in the file acts along +y
 };
 
 struct Fluid {
-  double viscosity = 0;     ///< [Pa s]
-  double density = 1000;    ///< [kg/m3]
+  double viscosity = 0;   ///< [Pa s]
+  double density = 1000;  ///< [kg/m3]
 };
 
 struct Numerics {
-  double dx = 0;                         ///< [m]
+  double dx = 0;  ///< [m]
   double tau = 1.0;
-  std::optional<double> cell_reynolds;   ///< inertia scaling; empty: the real density
-  std::optional<double> dt;              ///< [s]; excludes cell_reynolds
+  std::optional<double> cell_reynolds;  ///< inertia scaling; empty: the real density
+  std::optional<double> dt;             ///< [s]; excludes cell_reynolds
   std::string kernel = "cosine4";
 };
 
@@ -57,51 +58,51 @@ struct Cell {
 struct Carrier {
   CarrierKind kind = CarrierKind::particle;
   int count = 0;
-  int beads = 32;                        ///< of a worm
-  double stretching = 6.3e-4;            ///< k of U = k (l - l0)^2 [N/m], worm
-  double bending = 4.14e-20;             ///< kappa of U = kappa (theta - theta0)^2 [J], worm
-  double radius = 0;                     ///< [m]
+  int beads = 32;              ///< of a worm
+  double stretching = 6.3e-4;  ///< k of U = k (l - l0)^2 [N/m], worm
+  double bending = 4.14e-20;   ///< kappa of U = kappa (theta - theta0)^2 [J], worm
+  double radius = 0;           ///< [m]
   double susceptibility = 0.4;
   double magnetic_fraction = 0.6;
   bool feedback = true;
 };
 
 struct Contact {
-  double morse_depth = 0.04;             ///< [kBT] per vertex pair at 3286 vertices
-  double morse_beta = 3.84e6;            ///< [1/m]
-  double morse_r0 = 0.5e-6;              ///< [m]
-  double morse_cutoff = 1.5e-6;          ///< [m]
-  std::optional<double> cell_sigma;      ///< [m]; default 0.6 x longest rest edge, at least 0.25 um
-  double carrier_sigma = 0.5e-6;         ///< [m]
-  double epsilon = 1.0;                  ///< [kBT] at 3286 vertices
-  double plate_sigma = 0.25e-6;          ///< [m]
+  double morse_depth = 0.04;         ///< [kBT] per vertex pair at 3286 vertices
+  double morse_beta = 3.84e6;        ///< [1/m]
+  double morse_r0 = 0.5e-6;          ///< [m]
+  double morse_cutoff = 1.5e-6;      ///< [m]
+  std::optional<double> cell_sigma;  ///< [m]; default 0.6 x longest rest edge, at least 0.25 um
+  double carrier_sigma = 0.5e-6;     ///< [m]
+  double epsilon = 1.0;              ///< [kBT] at 3286 vertices
+  double plate_sigma = 0.25e-6;      ///< [m]
   Repulsion repulsion = Repulsion::soft;
 };
 
 struct Magnetic {
   FieldKind field = FieldKind::none;
-  double B0 = 0;                                   ///< [T]
-  int axis = 2;                                    ///< of a gradient or uniform field
-  std::optional<double> gradient;                  ///< [T/m]; else B0 (1 - z/H) with the pull down
-  std::array<double, 3> zero_at{};                 ///< [m], where an explicit gradient's field vanishes
+  double B0 = 0;                    ///< [T]
+  int axis = 2;                     ///< of a gradient or uniform field
+  std::optional<double> gradient;   ///< [T/m]; else B0 (1 - z/H) with the pull down
+  std::array<double, 3> zero_at{};  ///< [m], where an explicit gradient's field vanishes
   bool dipoles = true;
 };
 
 struct Analysis {
-  double layer = 2.8e-6;                 ///< [m]
+  double layer = 2.8e-6;  ///< [m]
   LayerWalls walls = LayerWalls::lower;
-  double average_from = 0;               ///< [s]
+  double average_from = 0;  ///< [s]
 };
 
 struct Run {
-  std::optional<double> time;            ///< [s]
+  std::optional<double> time;  ///< [s]
   std::optional<long> steps;
-  double checkpoint = 600;               ///< [s] of wall time
+  double checkpoint = 600;  ///< [s] of wall time
 };
 
 struct Output {
-  std::optional<double> fields;          ///< [s]; empty: never
-  std::optional<double> series = 1e-3;   ///< [s]; empty: never
+  std::optional<double> fields;         ///< [s]; empty: never
+  std::optional<double> series = 1e-3;  ///< [s]; empty: never
 };
 
 struct Case {
@@ -117,13 +118,13 @@ struct Case {
   Analysis analysis;
   Run run;
   Output output;
-  std::string text;                      ///< the file as read, overrides applied, to be kept with the run
-  std::string file;                      ///< its name
+  std::string text;  ///< the file as read, overrides applied, to be kept with the run
+  std::string file;  ///< its name
   std::map<std::string, std::string> positions;  ///< FILE:LINE:COL of every key, or "--set"
 };
 
-/// Where a key stands in the file, or its table if it is not given: "FILE:LINE:COL: key", the head of an error message.
-/// Entries of a list are numbered from 0 when there are several: cell.1.count.
+/// Where a key stands in the file, or its table if it is not given: "FILE:LINE:COL: key", the head
+/// of an error message. Entries of a list are numbered from 0 when there are several: cell.1.count.
 std::string position(const Case& c, std::string key);
 
 /// The path of entry k of `count` [[name]] entries.

@@ -22,9 +22,11 @@ struct Source {
 
   std::string place(const toml::node& node) const {
     const auto at = node.source().begin;
-    return path + ":" + std::to_string(at.line == 0 ? 1 : at.line) + ":" + std::to_string(at.column == 0 ? 1 : at.column);
+    return path + ":" + std::to_string(at.line == 0 ? 1 : at.line) + ":" +
+           std::to_string(at.column == 0 ? 1 : at.column);
   }
-  [[noreturn]] void fail(const toml::node& node, const std::string& key, const std::string& problem) const {
+  [[noreturn]] void fail(const toml::node& node, const std::string& key,
+                         const std::string& problem) const {
     const auto set = overridden.find(&node);
     if (set != overridden.end()) throw CaseError("--set " + set->second + ": " + problem);
     throw CaseError(place(node) + ": " + key + ": " + problem);
@@ -33,19 +35,27 @@ struct Source {
 
 const char* type_name(const toml::node& node) {
   switch (node.type()) {
-    case toml::node_type::string: return "a string";
-    case toml::node_type::integer: return "a whole number";
-    case toml::node_type::floating_point: return "a number";
-    case toml::node_type::boolean: return "true or false";
-    case toml::node_type::array: return "a list";
-    case toml::node_type::table: return "a table";
-    default: return "a date or time";
+  case toml::node_type::string:
+    return "a string";
+  case toml::node_type::integer:
+    return "a whole number";
+  case toml::node_type::floating_point:
+    return "a number";
+  case toml::node_type::boolean:
+    return "true or false";
+  case toml::node_type::array:
+    return "a list";
+  case toml::node_type::table:
+    return "a table";
+  default:
+    return "a date or time";
   }
 }
 
-/// One table of the file, read key by key; what the schema does not know is refused when it is opened.
+/// One table of the file, read key by key; what the schema does not know is refused when it is
+/// opened.
 class Table {
- public:
+public:
   Table(const Source& source, const toml::table* table, std::string schema, std::string path)
       : source_(source), table_(table), schema_(std::move(schema)), path_(std::move(path)) {
     if (table_) refuse_unknown();
@@ -54,7 +64,8 @@ class Table {
   bool has(const char* name) const { return table_ && table_->contains(name); }
   const toml::node& node(const char* name) const { return *table_->get(name); }
 
-  /// The value as it is written in the file or, absent, as its default is written in the table of keys.
+  /// The value as it is written in the file or, absent, as its default is written in the table of
+  /// keys.
   std::string word(const char* name) const {
     const Key& key = *find_key(schema_, name);
     if (!has(name)) return key.fallback;
@@ -66,7 +77,8 @@ class Table {
     for (const char* choice : key.choices)
       if (word == choice) return word;
     for (const char* choice : key.later)
-      if (word == choice) fail(name, "\"" + word + "\" is not available in this version; accepted: " + accepted(key));
+      if (word == choice)
+        fail(name, "\"" + word + "\" is not available in this version; accepted: " + accepted(key));
     fail(name, "\"" + word + "\" is unknown; accepted: " + accepted(key));
   }
 
@@ -116,10 +128,14 @@ class Table {
   void refuse_later(const char* name) const {
     const Key& key = *find_key(schema_, name);
     for (const char* word : key.later)
-      if (is_word(name, word)) fail(name, std::string("\"") + word + "\" is not available in this version; accepted: " + accepted(key));
+      if (is_word(name, word))
+        fail(name, std::string("\"") + word +
+                       "\" is not available in this version; accepted: " + accepted(key));
   }
 
-  [[noreturn]] void fail(const char* name, const std::string& problem) const { source_.fail(node(name), full(name), problem); }
+  [[noreturn]] void fail(const char* name, const std::string& problem) const {
+    source_.fail(node(name), full(name), problem);
+  }
 
   /// Report a key that is missing, at the header of its table (1:1 when there is none).
   [[noreturn]] void missing(const char* name, const std::string& problem) const {
@@ -128,34 +144,41 @@ class Table {
   }
 
   void require(const char* name) const {
-    if (!has(name)) missing(name, "is missing; " + accepted(*find_key(schema_, name)) + " is required");
+    if (!has(name))
+      missing(name, "is missing; " + accepted(*find_key(schema_, name)) + " is required");
   }
 
   std::string full(const char* name) const { return path_.empty() ? name : path_ + "." + name; }
 
- private:
+private:
   void refuse_unknown() const {
     for (const auto& [name, value] : *table_) {
       const std::string text(name.str());
       if (find_key(schema_, text)) continue;
-      if (schema_.empty() && !nearest_name("", text).empty() && nearest_name("", text) == text) continue;  // a table
+      if (schema_.empty() && !nearest_name("", text).empty() && nearest_name("", text) == text)
+        continue;  // a table
       const std::string near = nearest_name(schema_, text);
       std::string known;
       for (const Key& key : keys())
         if (schema_ == key.table) known += (known.empty() ? "" : ", ") + std::string(key.name);
       source_.fail(value, full(text.c_str()),
-                   "is not a key" + (near.empty() ? "; accepted: " + known : "; did you mean " + near + "? accepted: " + known));
+                   "is not a key" + (near.empty()
+                                         ? "; accepted: " + known
+                                         : "; did you mean " + near + "? accepted: " + known));
     }
   }
 
   [[noreturn]] void wrong_type(const char* name, const Key& key) const {
-    fail(name, std::string(type_name(node(name))) + " is not what is meant here; accepted: " + accepted(key));
+    fail(name, std::string(type_name(node(name))) +
+                   " is not what is meant here; accepted: " + accepted(key));
   }
 
   double read(const char* name, const Key& key, const toml::node& n) const {
     const auto text = n.value<std::string>();
     if (!text)
-      source_.fail(n, full(name), std::string(type_name(n)) + " without a unit; accepted: " + accepted(key) + " as a string");
+      source_.fail(n, full(name),
+                   std::string(type_name(n)) + " without a unit; accepted: " + accepted(key) +
+                       " as a string");
     try {
       return case_::quantity(*text, *key.dimension);
     } catch (const Error& e) {
@@ -165,7 +188,8 @@ class Table {
 
   double in_range(const char* name, const Key& key, double value) const {
     const bool low = key.above_min ? value > key.min : value >= key.min;
-    if (!std::isfinite(value) || !low || value > key.max) fail(name, "is out of range; accepted: " + accepted(key));
+    if (!std::isfinite(value) || !low || value > key.max)
+      fail(name, "is out of range; accepted: " + accepted(key));
     return value;
   }
 
@@ -178,7 +202,8 @@ std::string read_text(const std::string& path) {
   std::ifstream file(path);
   std::stringstream text;
   if (file) text << file.rdbuf();
-  if (!file || file.bad()) throw CaseError(path + ":1:1: file: cannot be read; a readable TOML file is expected");
+  if (!file || file.bad())
+    throw CaseError(path + ":1:1: file: cannot be read; a readable TOML file is expected");
   return text.str();
 }
 
@@ -186,20 +211,23 @@ toml::table parse(const std::string& text, const std::string& path) {
   try {
     return toml::parse(text, path);
   } catch (const toml::parse_error& e) {
-    throw CaseError(path + ":" + std::to_string(e.source().begin.line) + ":" + std::to_string(e.source().begin.column) +
+    throw CaseError(path + ":" + std::to_string(e.source().begin.line) + ":" +
+                    std::to_string(e.source().begin.column) +
                     ": syntax: " + std::string(e.description()) + "; a TOML file is expected");
   }
 }
 
 /// The table a --set path leads to, made if the schema has it.
-toml::table& descend(toml::table& root, const std::vector<std::string>& parts, const std::string& key) {
+toml::table& descend(toml::table& root, const std::vector<std::string>& parts,
+                     const std::string& key) {
   toml::node* at = &root;
   for (std::size_t k = 0; k + 1 < parts.size(); ++k) {
     if (auto* list = at->as_array()) {
       const bool number = parts[k].find_first_not_of("0123456789") == std::string::npos;
       const std::size_t index = number ? std::stoul(parts[k].substr(0, 9)) : 0;
       if (index >= list->size() || (!number && list->size() != 1))
-        throw CaseError("--set " + key + ": there are " + std::to_string(list->size()) + " entries; accepted: the number of one, from 0");
+        throw CaseError("--set " + key + ": there are " + std::to_string(list->size()) +
+                        " entries; accepted: the number of one, from 0");
       at = list->get(index);
       if (number) continue;
     }
@@ -210,7 +238,8 @@ toml::table& descend(toml::table& root, const std::vector<std::string>& parts, c
   }
   if (auto* list = at->as_array()) {
     if (list->size() != 1)
-      throw CaseError("--set " + key + ": there are " + std::to_string(list->size()) + " entries; accepted: the number of one, from 0");
+      throw CaseError("--set " + key + ": there are " + std::to_string(list->size()) +
+                      " entries; accepted: the number of one, from 0");
     at = list->get(0);
   }
   if (!at->is_table()) throw CaseError("--set " + key + ": is not a key; accepted: table.key");
@@ -238,7 +267,9 @@ void apply_override(Source& source, const std::string& override_text) {
 
 Table section(const Source& source, const char* name) {
   const toml::node* node = source.root.get(name);
-  if (node && !node->is_table()) source.fail(*node, name, std::string("is ") + type_name(*node) + "; a [" + name + "] table is expected");
+  if (node && !node->is_table())
+    source.fail(*node, name,
+                std::string("is ") + type_name(*node) + "; a [" + name + "] table is expected");
   return Table(source, node ? node->as_table() : nullptr, name, name);
 }
 
@@ -248,9 +279,12 @@ std::vector<Table> entries(const Source& source, const char* name) {
   const toml::node* node = source.root.get(name);
   if (!node) return tables;
   const auto* list = node->as_array();
-  if (!list) source.fail(*node, name, std::string("is ") + type_name(*node) + "; [[" + name + "]] entries are expected");
+  if (!list)
+    source.fail(*node, name,
+                std::string("is ") + type_name(*node) + "; [[" + name + "]] entries are expected");
   for (std::size_t k = 0; k < list->size(); ++k) {
-    if (!list->get(k)->is_table()) source.fail(*list->get(k), name, std::string("[[") + name + "]] entries are expected");
+    if (!list->get(k)->is_table())
+      source.fail(*list->get(k), name, std::string("[[") + name + "]] entries are expected");
     tables.emplace_back(source, list->get(k)->as_table(), name, entry_path(name, k, list->size()));
   }
   return tables;
@@ -275,21 +309,25 @@ void read_numerics(Case& c, const Table& t, const Table& channel) {
     const double nodes = c.channel.size[d] / n.dx;
     if (std::fabs(nodes - std::round(nodes)) > 1e-9 * nodes || nodes < 4 || nodes > 1e6) {
       char text[160];
-      std::snprintf(text, sizeof text, "%g um along %c is %.9g dx; accepted: a whole multiple of dx, at least 4", c.channel.size[d] * 1e6,
-                    "xyz"[d], nodes);
+      std::snprintf(text, sizeof text,
+                    "%g um along %c is %.9g dx; accepted: a whole multiple of dx, at least 4",
+                    c.channel.size[d] * 1e6, "xyz"[d], nodes);
       channel.fail("size", text);
     }
   }
   n.tau = t.number("tau");
-  if (t.has("dt") && t.has("cell_reynolds")) t.fail("dt", "excludes cell_reynolds; accepted: one of the two");
+  if (t.has("dt") && t.has("cell_reynolds"))
+    t.fail("dt", "excludes cell_reynolds; accepted: one of the two");
   n.dt = t.optional_quantity("dt");
   if (!n.dt && !t.is_word("cell_reynolds", "true")) {
     if (c.channel.shear_rate > 0)
       n.cell_reynolds = t.number("cell_reynolds");
     else if (t.has("cell_reynolds"))
-      t.fail("cell_reynolds", "means nothing without channel.shear_rate; accepted: numerics.dt, or cell_reynolds = \"true\"");
+      t.fail("cell_reynolds", "means nothing without channel.shear_rate; accepted: numerics.dt, or "
+                              "cell_reynolds = \"true\"");
     else
-      t.missing("dt", "is missing; without channel.shear_rate a time step is required, e.g. \"6.81 us\"");
+      t.missing("dt",
+                "is missing; without channel.shear_rate a time step is required, e.g. \"6.81 us\"");
   }
   t.word("scheme");
   t.word("precision");
@@ -301,7 +339,8 @@ Cell read_cell(const Table& t) {
   t.word("kind");
   t.word("stress_free");
   cell.vertices = static_cast<int>(t.number("vertices"));
-  if (t.has("count") && t.has("hematocrit")) t.fail("count", "excludes hematocrit; accepted: one of the two");
+  if (t.has("count") && t.has("hematocrit"))
+    t.fail("count", "excludes hematocrit; accepted: one of the two");
   if (t.has("count"))
     cell.count = static_cast<int>(t.number("count"));
   else
@@ -321,7 +360,8 @@ Carrier read_carrier(const Table& t) {
   Carrier carrier;
   carrier.kind = t.word("kind") == "worm" ? CarrierKind::worm : CarrierKind::particle;
   for (const char* key : {"beads", "stretching", "bending"})
-    if (carrier.kind == CarrierKind::particle && t.has(key)) t.fail(key, "is for worms; accepted: kind = \"worm\", or leave it out");
+    if (carrier.kind == CarrierKind::particle && t.has(key))
+      t.fail(key, "is for worms; accepted: kind = \"worm\", or leave it out");
   carrier.count = static_cast<int>(t.number("count"));
   carrier.beads = static_cast<int>(t.number("beads"));
   carrier.stretching = t.quantity("stretching");
@@ -349,42 +389,56 @@ void read_magnetic(Case& c, const Table& t, bool given) {
   if (!given) return;
   auto& m = c.magnetic;
   const std::string field = t.word("field");
-  m.field = field == "none" ? FieldKind::none : field == "uniform" ? FieldKind::uniform : FieldKind::gradient;
+  m.field = field == "none"      ? FieldKind::none
+            : field == "uniform" ? FieldKind::uniform
+                                 : FieldKind::gradient;
   m.B0 = t.quantity("B0");
   m.axis = t.word("axis")[0] - 'x';
   m.gradient = t.optional_quantity("gradient");
   m.zero_at = t.vector("zero_at");
   m.dipoles = t.flag("dipoles");
-  if (m.gradient && m.field != FieldKind::gradient) t.fail("gradient", "needs field = \"gradient\"; accepted: that, or leave it out");
+  if (m.gradient && m.field != FieldKind::gradient)
+    t.fail("gradient", "needs field = \"gradient\"; accepted: that, or leave it out");
   if (m.gradient && t.has("B0")) t.fail("gradient", "excludes B0; accepted: one of the two");
-  if (t.has("zero_at") && !m.gradient) t.fail("zero_at", "needs an explicit gradient; accepted: gradient = \"... T/m\" with it");
+  if (t.has("zero_at") && !m.gradient)
+    t.fail("zero_at", "needs an explicit gradient; accepted: gradient = \"... T/m\" with it");
   if (m.field == FieldKind::gradient && !m.gradient && c.channel.boundary == Boundary::periodic)
-    t.missing("gradient", "is missing; without plates a gradient field needs gradient = \"... T/m\"");
+    t.missing("gradient",
+              "is missing; without plates a gradient field needs gradient = \"... T/m\"");
 }
 
 void read_rest(Case& c, const Source& source) {
   const Table analysis = section(source, "analysis");
   analysis.refuse_later("layer");
   c.analysis.layer = analysis.quantity("layer");
-  if (c.analysis.layer >= c.channel.size[2]) analysis.fail("layer", "is thicker than the channel; accepted: less than its height");
+  if (c.analysis.layer >= c.channel.size[2])
+    analysis.fail("layer", "is thicker than the channel; accepted: less than its height");
   c.analysis.walls = analysis.word("walls") == "both" ? LayerWalls::both : LayerWalls::lower;
   const Table run = section(source, "run");
-  if (run.has("time") && run.has("steps")) run.fail("steps", "excludes time; accepted: one of the two");
-  if (!run.has("time") && !run.has("steps")) run.missing("time", "is missing; time (e.g. \"1.4 s\") or steps is required");
+  if (run.has("time") && run.has("steps"))
+    run.fail("steps", "excludes time; accepted: one of the two");
+  if (!run.has("time") && !run.has("steps"))
+    run.missing("time", "is missing; time (e.g. \"1.4 s\") or steps is required");
   c.run.time = run.optional_quantity("time");
   if (run.has("steps")) c.run.steps = static_cast<long>(run.number("steps"));
   c.run.checkpoint = run.quantity("checkpoint");
   c.analysis.average_from = analysis.quantity("average_from");
-  const double duration = c.run.time ? *c.run.time : static_cast<double>(*c.run.steps) * lattice_units(c).dt;
-  if (!analysis.has("average_from") && duration <= c.analysis.average_from) c.analysis.average_from = 0;
+  const double duration =
+      c.run.time ? *c.run.time : static_cast<double>(*c.run.steps) * lattice_units(c).dt;
+  if (!analysis.has("average_from") && duration <= c.analysis.average_from)
+    c.analysis.average_from = 0;
   const Table output = section(source, "output");
-  c.output.fields = output.is_word("fields", "never") ? std::nullopt : output.optional_quantity("fields");
-  c.output.series = output.is_word("series", "never") ? std::nullopt : output.optional_quantity("series");
+  c.output.fields =
+      output.is_word("fields", "never") ? std::nullopt : output.optional_quantity("fields");
+  c.output.series =
+      output.is_word("series", "never") ? std::nullopt : output.optional_quantity("series");
 }
 
 /// Every key's place, for messages that come after reading.
-void note_positions(Case& c, const Source& source, const toml::node& node, const std::string& path) {
-  if (!path.empty()) c.positions[path] = source.overridden.contains(&node) ? "--set" : source.place(node);
+void note_positions(Case& c, const Source& source, const toml::node& node,
+                    const std::string& path) {
+  if (!path.empty())
+    c.positions[path] = source.overridden.contains(&node) ? "--set" : source.place(node);
   if (const auto* table = node.as_table())
     for (const auto& [name, value] : *table)
       note_positions(c, source, value, (path.empty() ? "" : path + ".") + std::string(name.str()));
@@ -410,7 +464,8 @@ std::string position(const Case& c, std::string key) {
   const std::string full = key;
   while (!key.empty()) {
     const auto found = c.positions.find(key);
-    if (found != c.positions.end()) return found->second + (found->second == "--set" ? " " : ": ") + full;
+    if (found != c.positions.end())
+      return found->second + (found->second == "--set" ? " " : ": ") + full;
     const auto dot = key.rfind('.');
     key.erase(dot == std::string::npos ? 0 : dot);
   }

@@ -12,9 +12,8 @@ namespace {
 
 /// Appends printf-formatted lines.
 class Lines {
- public:
-  template <class... Args>
-  void operator()(const char* format, Args... args) {
+public:
+  template <class... Args> void operator()(const char* format, Args... args) {
     char line[512];
     std::snprintf(line, sizeof line, format, args...);
     text += line;
@@ -32,7 +31,7 @@ struct Counts {
 };
 
 class Writer {
- public:
+public:
   Writer(const Case& c, const System& system) : c_(c), system_(system), units_(lattice_units(c)) {
     for (const Carrier& carrier : c.carriers)
       if (carrier.kind == CarrierKind::worm) ++worms_;
@@ -55,7 +54,7 @@ class Writer {
     return out_.text;
   }
 
- private:
+private:
   static double edge_length(const CellModel& m, const membrane::Edge& e) {
     return norm(m.mesh.x[static_cast<std::size_t>(e.a)] - m.mesh.x[static_cast<std::size_t>(e.b)]);
   }
@@ -82,9 +81,11 @@ class Writer {
     const Counts n = totals();
     const auto size = nodes(c_);
     out_("hemomag: %s\n", c_.title.c_str());
-    out_("%ld atoms\n%ld bonds\n%ld angles\n%ld dihedrals\n", n.atoms, n.bonds, n.angles, n.dihedrals);
+    out_("%ld atoms\n%ld bonds\n%ld angles\n%ld dihedrals\n", n.atoms, n.bonds, n.angles,
+         n.dihedrals);
     out_("%zu atom types\n%ld bond types\n%ld angle types\n%ld dihedral types\n",
-         c_.cells.size() + c_.carriers.size(), types_.bonds + worms_, types_.angles + worms_, types_.dihedrals);
+         c_.cells.size() + c_.carriers.size(), types_.bonds + worms_, types_.angles + worms_,
+         types_.dihedrals);
     out_("0 %d xlo xhi\n0 %d ylo yhi\n0 %d zlo zhi", size[0], size[1], size[2]);
   }
 
@@ -95,11 +96,13 @@ class Writer {
     long type = 0;
     for (std::size_t m = 0; m < system_.models.size(); ++m)
       for (const auto& e : system_.models[m].topology.edges)
-        out_("%ld%s %.17g %.17g %.17g %.17g 2 0 0", ++type, bond_style, kBT / units_.energy(), c_.cells[m].stretch_ratio,
+        out_("%ld%s %.17g %.17g %.17g %.17g 2 0 0", ++type, bond_style, kBT / units_.energy(),
+             c_.cells[m].stretch_ratio,
              edge_length(system_.models[m], e) / c_.cells[m].stretch_ratio / units_.dx,
              c_.cells[m].shear_modulus / units_.tension());
     worm_coefficients(type, [&](const Carrier& w, long t) {
-      out_("%ld%s %.17g %.17g", t, hybrid_ ? " harmonic" : "", w.stretching / units_.tension(), 2 * w.radius / units_.dx);
+      out_("%ld%s %.17g %.17g", t, hybrid_ ? " harmonic" : "", w.stretching / units_.tension(),
+           2 * w.radius / units_.dx);
     });
 
     if (types_.angles + worms_ > 0) out_("\nAngle Coeffs\n");
@@ -110,11 +113,12 @@ class Writer {
       const double dx2 = units_.dx * units_.dx;
       for (const auto& t : model.mesh.triangles) {
         const auto& x = model.mesh.x;
-        const Vec3 a = x[static_cast<std::size_t>(t[0])], b = x[static_cast<std::size_t>(t[1])], d = x[static_cast<std::size_t>(t[2])];
+        const Vec3 a = x[static_cast<std::size_t>(t[0])], b = x[static_cast<std::size_t>(t[1])],
+                   d = x[static_cast<std::size_t>(t[2])];
         out_("%ld%s 0 1 %.17g %.17g %.17g %.17g %.17g %.17g", ++type, angle_style,
-             cell.area_modulus_global / units_.tension(), model.area / dx2, cell.volume_modulus / units_.pressure(),
-             model.volume / (dx2 * units_.dx), cell.area_modulus_local / units_.tension(),
-             0.5 * norm(cross(b - a, d - a)) / dx2);
+             cell.area_modulus_global / units_.tension(), model.area / dx2,
+             cell.volume_modulus / units_.pressure(), model.volume / (dx2 * units_.dx),
+             cell.area_modulus_local / units_.tension(), 0.5 * norm(cross(b - a, d - a)) / dx2);
       }
     }
     worm_coefficients(type, [&](const Carrier& w, long t) {
@@ -126,17 +130,17 @@ class Writer {
     for (std::size_t m = 0; m < system_.models.size(); ++m)
       for (const auto& h : system_.models[m].topology.hinges) {
         const auto& x = system_.models[m].mesh.x;
-        const double theta =
-            membrane::make_hinge(x[static_cast<std::size_t>(h[0])], x[static_cast<std::size_t>(h[1])],
-                                 x[static_cast<std::size_t>(h[2])], x[static_cast<std::size_t>(h[3])])
-                .theta.angle();
+        const double theta = membrane::make_hinge(x[static_cast<std::size_t>(h[0])],
+                                                  x[static_cast<std::size_t>(h[1])],
+                                                  x[static_cast<std::size_t>(h[2])],
+                                                  x[static_cast<std::size_t>(h[3])])
+                                 .theta.angle();
         out_("%ld %.17g %.17g", ++type, c_.cells[m].bending_modulus / units_.energy(),
              c_.cells[m].hinges == Hinges::rest ? theta * 180 / std::numbers::pi : 0.0);
       }
   }
 
-  template <class Print>
-  void worm_coefficients(long type, Print print) {
+  template <class Print> void worm_coefficients(long type, Print print) {
     for (const Carrier& carrier : c_.carriers)
       if (carrier.kind == CarrierKind::worm) print(carrier, ++type);
   }
@@ -151,8 +155,8 @@ class Writer {
       image[d] = periodic ? static_cast<int>(std::floor(at / size[d])) : 0;
       wrapped[d] = at - image[d] * size[d];
     }
-    out_("%ld %ld %zu %.17g %.17g %.17g %d %d %d", ++id_, molecule, type, wrapped[0], wrapped[1], wrapped[2], image[0],
-         image[1], image[2]);
+    out_("%ld %ld %zu %.17g %.17g %.17g %d %d %d", ++id_, molecule, type, wrapped[0], wrapped[1],
+         wrapped[2], image[0], image[1], image[2]);
   }
 
   void atoms() {
@@ -166,13 +170,13 @@ class Writer {
     for (const auto& carrier : system_.carriers) {
       const bool worm = c_.carriers[carrier.entry].kind == CarrierKind::worm;
       if (worm) ++molecule;
-      for (const Vec3& x : carrier.beads) atom(worm ? molecule : 0, c_.cells.size() + carrier.entry + 1, x);
+      for (const Vec3& x : carrier.beads)
+        atom(worm ? molecule : 0, c_.cells.size() + carrier.entry + 1, x);
     }
   }
 
   /// visit(first atom of the chain, beads, number of the worm entry)
-  template <class Visit>
-  void for_each_worm(long first, Visit visit) {
+  template <class Visit> void for_each_worm(long first, Visit visit) {
     std::vector<long> number(c_.carriers.size(), 0);
     long worm_entries = 0;
     for (std::size_t entry = 0; entry < c_.carriers.size(); ++entry)
@@ -193,10 +197,12 @@ class Writer {
     long row = 0;
     for_each_cell([&](const CellModel& m, const Counts& type, long first) {
       long t = type.bonds;
-      for (const auto& e : m.topology.edges) out_("%ld %ld %ld %ld", ++row, ++t, first + e.a, first + e.b);
+      for (const auto& e : m.topology.edges)
+        out_("%ld %ld %ld %ld", ++row, ++t, first + e.a, first + e.b);
     });
     for_each_worm(carriers_from, [&](long first, long beads, long worm) {
-      for (long b = 0; b + 1 < beads; ++b) out_("%ld %ld %ld %ld", ++row, types_.bonds + worm, first + b, first + b + 1);
+      for (long b = 0; b + 1 < beads; ++b)
+        out_("%ld %ld %ld %ld", ++row, types_.bonds + worm, first + b, first + b + 1);
     });
 
     if (n.angles > 0) out_("\nAngles\n");
@@ -208,7 +214,8 @@ class Writer {
     });
     for_each_worm(carriers_from, [&](long first, long beads, long worm) {
       for (long b = 0; b + 2 < beads; ++b)
-        out_("%ld %ld %ld %ld %ld", ++row, types_.angles + worm, first + b, first + b + 1, first + b + 2);
+        out_("%ld %ld %ld %ld %ld", ++row, types_.angles + worm, first + b, first + b + 1,
+             first + b + 2);
     });
 
     if (n.dihedrals > 0) out_("\nDihedrals\n");
@@ -216,13 +223,13 @@ class Writer {
     for_each_cell([&](const CellModel& m, const Counts& type, long first) {
       long t = type.dihedrals;
       for (const auto& h : m.topology.hinges)
-        out_("%ld %ld %ld %ld %ld %ld", ++row, ++t, first + h[0], first + h[1], first + h[2], first + h[3]);
+        out_("%ld %ld %ld %ld %ld %ld", ++row, ++t, first + h[0], first + h[1], first + h[2],
+             first + h[3]);
     });
   }
 
   /// visit(model, types used before it, first atom)
-  template <class Visit>
-  void for_each_cell(Visit visit) {
+  template <class Visit> void for_each_cell(Visit visit) {
     long first = 1;
     for (const auto& cell : system_.cells) {
       visit(system_.models[cell.model], first_type_[cell.model], first);

@@ -6,9 +6,10 @@
 
 namespace hemomag::case_ {
 
-/// cells.data of a starting state: atoms wrapped into the box with image flags, one bond, angle and dihedral type an
-/// edge, triangle and hinge of each mesh, shared by all its cells, in lattice units. Atom types: the [[cell]] entries, then
-/// the [[carrier]] entries. Molecules: cells from 1, then worms; free particles are molecule 0.
+/// cells.data of a starting state: atoms wrapped into the box with image flags, one bond, angle and
+/// dihedral type an edge, triangle and hinge of each mesh, shared by all its cells, in lattice
+/// units. Atom types: the [[cell]] entries, then the [[carrier]] entries. Molecules: cells from 1,
+/// then worms; free particles are molecule 0.
 std::string cells_data(const Case& c, const System& system);
 
 }  // namespace hemomag::case_

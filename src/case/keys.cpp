@@ -12,24 +12,28 @@ constexpr double inf = std::numeric_limits<double>::infinity();
 Key text(const char* t, const char* n, const char* fallback, const char* help) {
   return {t, n, Kind::text, nullptr, 0, 0, false, fallback, {}, {}, help};
 }
-Key integer(const char* t, const char* n, double min, double max, const char* fallback, const char* help) {
+Key integer(const char* t, const char* n, double min, double max, const char* fallback,
+            const char* help) {
   return {t, n, Kind::integer, nullptr, min, max, false, fallback, {}, {}, help};
 }
-Key number(const char* t, const char* n, double min, double max, bool above, const char* fallback, const char* help) {
+Key number(const char* t, const char* n, double min, double max, bool above, const char* fallback,
+           const char* help) {
   return {t, n, Kind::number, nullptr, min, max, above, fallback, {}, {}, help};
 }
 Key flag(const char* t, const char* n, const char* fallback, const char* help) {
   return {t, n, Kind::flag, nullptr, 0, 0, false, fallback, {}, {}, help};
 }
-Key choice(const char* t, const char* n, std::vector<const char*> words, std::vector<const char*> later, const char* fallback,
-           const char* help) {
-  return {t, n, Kind::choice, nullptr, 0, 0, false, fallback, std::move(words), std::move(later), help};
+Key choice(const char* t, const char* n, std::vector<const char*> words,
+           std::vector<const char*> later, const char* fallback, const char* help) {
+  return {t,     n,        Kind::choice,     nullptr,          0,   0,
+          false, fallback, std::move(words), std::move(later), help};
 }
-Key amount(const char* t, const char* n, const Dimension& d, double min, double max, bool above, const char* fallback,
-           const char* help) {
+Key amount(const char* t, const char* n, const Dimension& d, double min, double max, bool above,
+           const char* fallback, const char* help) {
   return {t, n, Kind::quantity, &d, min, max, above, fallback, {}, {}, help};
 }
-Key vector(const char* t, const char* n, const Dimension& d, double min, bool above, const char* fallback, const char* help) {
+Key vector(const char* t, const char* n, const Dimension& d, double min, bool above,
+           const char* fallback, const char* help) {
   return {t, n, Kind::vector, &d, min, inf, above, fallback, {}, {}, help};
 }
 
@@ -38,65 +42,138 @@ const std::vector<Key>& table() {
   static const std::vector<Key> all = {
       text("", "title", "hemomag case", "one line that names the study"),
       integer("", "seed", 0, 9.007e15, "1", "of every random draw"),
-      vector("channel", "size", length, 0, true, "required", "x, y (flow) and z; whole multiples of dx"),
-      choice("channel", "boundary", {"plates", "periodic"}, {"tube", "voxels"}, "plates", "plates close z; x and y are periodic"),
-      choice("channel", "plates", {"lower-rest", "symmetric"}, {}, "lower-rest", "the upper plate moves, or both, opposite ways"),
-      amount("channel", "shear_rate", rate, 0, inf, false, "", "of the plates, along +y; without it numerics.dt is required"),
-      amount("channel", "body_force", force_density, -inf, inf, false, "", "drives the fluid along +y"),
-      amount("fluid", "viscosity", viscosity, 0, inf, true, "required", "of plasma, inside cells too"),
+      vector("channel", "size", length, 0, true, "required",
+             "x, y (flow) and z; whole multiples of dx"),
+      choice("channel", "boundary", {"plates", "periodic"}, {"tube", "voxels"}, "plates",
+             "plates close z; x and y are periodic"),
+      choice("channel", "plates", {"lower-rest", "symmetric"}, {}, "lower-rest",
+             "the upper plate moves, or both, opposite ways"),
+      amount("channel", "shear_rate", rate, 0, inf, false, "",
+             "of the plates, along +y; without it numerics.dt is required"),
+      amount("channel", "body_force", force_density, -inf, inf, false, "",
+             "drives the fluid along +y"),
+      amount("fluid", "viscosity", viscosity, 0, inf, true, "required",
+             "of plasma, inside cells too"),
       amount("fluid", "density", density, 0, inf, true, "1000 kg/m3", "the real one"),
       amount("numerics", "dx", length, 0, inf, true, "required", "node spacing"),
-      number("numerics", "tau", 0.5, 100, true, "1.0", "relaxation time; the viscosity in lattice units is (tau - 1/2)/3"),
-      {"numerics", "cell_reynolds", Kind::number, nullptr, 0, inf, true, "0.5", {"true"}, {}, "inertia scaling, rho shear_rate R^2/mu with R = 3.91 um; \"true\" keeps the real density; excludes dt"},
+      number("numerics", "tau", 0.5, 100, true, "1.0",
+             "relaxation time; the viscosity in lattice units is (tau - 1/2)/3"),
+      {"numerics",
+       "cell_reynolds",
+       Kind::number,
+       nullptr,
+       0,
+       inf,
+       true,
+       "0.5",
+       {"true"},
+       {},
+       "inertia scaling, rho shear_rate R^2/mu with R = 3.91 um; \"true\" keeps the real density; "
+       "excludes dt"},
       amount("numerics", "dt", time, 0, inf, true, "", "time step; excludes cell_reynolds"),
       choice("numerics", "scheme", {"trt"}, {"bgk", "exponential"}, "trt", "collision"),
       choice("numerics", "precision", {"double"}, {"single"}, "double", "of the populations"),
-      choice("numerics", "kernel", {"cosine4", "peskin4"}, {"roma3", "linear2"}, "cosine4", "smoothed delta function of the coupling"),
+      choice("numerics", "kernel", {"cosine4", "peskin4"}, {"roma3", "linear2"}, "cosine4",
+             "smoothed delta function of the coupling"),
       choice("cell", "kind", {"rbc"}, {"platelet", "white"}, "rbc", "red cell"),
       integer("cell", "vertices", 162, 100000, "3286", "of the mesh"),
-      number("cell", "hematocrit", 0, 0.6, true, "0.30", "volume fraction; the nearest whole number of cells"),
+      number("cell", "hematocrit", 0, 0.6, true, "0.30",
+             "volume fraction; the nearest whole number of cells"),
       integer("cell", "count", 0, 1e7, "", "number of cells, instead of hematocrit"),
-      choice("cell", "placement", {"random", "grid"}, {"compress", "grow", "file"}, "random", "initial positions"),
-      choice("cell", "stress_free", {"biconcave"}, {"sphere"}, "biconcave", "shape in which the springs are at rest"),
-      choice("cell", "hinges", {"rest", "flat"}, {}, "rest", "rest angles of the rest shape, or zero"),
+      choice("cell", "placement", {"random", "grid"}, {"compress", "grow", "file"}, "random",
+             "initial positions"),
+      choice("cell", "stress_free", {"biconcave"}, {"sphere"}, "biconcave",
+             "shape in which the springs are at rest"),
+      choice("cell", "hinges", {"rest", "flat"}, {}, "rest",
+             "rest angles of the rest shape, or zero"),
       amount("cell", "shear_modulus", tension, 0, inf, true, "6.3 uN/m", "mu0 (Table 1)"),
       amount("cell", "area_modulus_local", tension, 0, inf, false, "231 uN/m", "k_d"),
       amount("cell", "area_modulus_global", tension, 0, inf, false, "4.72 uN/m", "k_a"),
       amount("cell", "volume_modulus", pressure, 0, inf, false, "249 N/m2", "k_v"),
       amount("cell", "bending_modulus", energy, 0, inf, false, "5e-19 J", "k_b of Eq. 20"),
-      number("cell", "stretch_ratio", 0, 0.95, true, "0.45454545454545453", "l0/l_max of the springs"),
-      choice("carrier", "kind", {"particle", "worm"}, {}, "particle", "sphere, or bonded chain of spheres"),
+      number("cell", "stretch_ratio", 0, 0.95, true, "0.45454545454545453",
+             "l0/l_max of the springs"),
+      choice("carrier", "kind", {"particle", "worm"}, {}, "particle",
+             "sphere, or bonded chain of spheres"),
       integer("carrier", "count", 0, 1e8, "80", "how many"),
       integer("carrier", "beads", 2, 10000, "32", "of a worm"),
-      amount("carrier", "stretching", tension, 0, inf, true, "630 uN/m", "k of U = k (l - l0)^2 between beads of a worm"),
-      amount("carrier", "bending", energy, 0, inf, false, "4.14e-20 J", "kappa of U = kappa (theta - theta0)^2 along a worm"),
+      amount("carrier", "stretching", tension, 0, inf, true, "630 uN/m",
+             "k of U = k (l - l0)^2 between beads of a worm"),
+      amount("carrier", "bending", energy, 0, inf, false, "4.14e-20 J",
+             "kappa of U = kappa (theta - theta0)^2 along a worm"),
       amount("carrier", "radius", length, 0, inf, true, "125 nm", "of a particle or bead"),
-      number("carrier", "susceptibility", -1, inf, true, "0.4", "chi, volume susceptibility relative to plasma"),
-      number("carrier", "magnetic_fraction", 0, 1, false, "0.6", "part of the volume that is magnetic"),
+      number("carrier", "susceptibility", -1, inf, true, "0.4",
+             "chi, volume susceptibility relative to plasma"),
+      number("carrier", "magnetic_fraction", 0, 1, false, "0.6",
+             "part of the volume that is magnetic"),
       flag("carrier", "feedback", "true", "false: one-way, the fluid does not feel the carrier"),
-      number("contact", "morse_depth", 0, inf, false, "0.04", "kBT per vertex pair at 3286 vertices, times (3286/vertices)^2; 0 turns it off"),
-      amount("contact", "morse_beta", per_length, 0, inf, true, "3.84 um-1", "inverse width of the Morse well"),
+      number("contact", "morse_depth", 0, inf, false, "0.04",
+             "kBT per vertex pair at 3286 vertices, times (3286/vertices)^2; 0 turns it off"),
+      amount("contact", "morse_beta", per_length, 0, inf, true, "3.84 um-1",
+             "inverse width of the Morse well"),
       amount("contact", "morse_r0", length, 0, inf, true, "0.5 um", "distance of its minimum"),
       amount("contact", "morse_cutoff", length, 0, inf, true, "1.5 um", "its range"),
-      amount("contact", "cell_sigma", length, 0, inf, true, "", "cell-cell repulsion; default 0.6 x longest rest edge, at least 0.25 um"),
+      amount("contact", "cell_sigma", length, 0, inf, true, "",
+             "cell-cell repulsion; default 0.6 x longest rest edge, at least 0.25 um"),
       amount("contact", "carrier_sigma", length, 0, inf, true, "0.5 um", "cell-carrier repulsion"),
-      number("contact", "epsilon", 0, inf, true, "1.0", "kBT at 3286 vertices, times (3286/vertices)^2 cell-cell, times 3286/vertices cell-carrier"),
-      amount("contact", "plate_sigma", length, 0, inf, true, "0.25 um", "vertices and carriers from the plates, 1 kBT"),
-      choice("contact", "repulsion", {"soft", "paper"}, {}, "soft", "carrier-carrier: exponential, kappa = 30, or Eq. 26"),
-      choice("magnetic", "field", {"none", "uniform", "gradient"}, {"quadrupole", "rotating", "magnet", "coil", "wire", "table"}, "gradient", "external field (none without a [magnetic] table); gradient: |B| = B0 (1 - z/H), the pull is down"),
+      number("contact", "epsilon", 0, inf, true, "1.0",
+             "kBT at 3286 vertices, times (3286/vertices)^2 cell-cell, times 3286/vertices "
+             "cell-carrier"),
+      amount("contact", "plate_sigma", length, 0, inf, true, "0.25 um",
+             "vertices and carriers from the plates, 1 kBT"),
+      choice("contact", "repulsion", {"soft", "paper"}, {}, "soft",
+             "carrier-carrier: exponential, kappa = 30, or Eq. 26"),
+      choice("magnetic", "field", {"none", "uniform", "gradient"},
+             {"quadrupole", "rotating", "magnet", "coil", "wire", "table"}, "gradient",
+             "external field (none without a [magnetic] table); gradient: |B| = B0 (1 - z/H), the "
+             "pull is down"),
       amount("magnetic", "B0", field, 0, inf, false, "0.05 T", "strength"),
       choice("magnetic", "axis", {"x", "y", "z"}, {}, "z", "of a uniform field or a gradient"),
-      amount("magnetic", "gradient", field_gradient, -inf, inf, false, "", "dB/dx along the axis, instead of B0 (1 - z/H)"),
-      vector("magnetic", "zero_at", length, -inf, false, "0 um, 0 um, 0 um", "where an explicit gradient's field vanishes"),
+      amount("magnetic", "gradient", field_gradient, -inf, inf, false, "",
+             "dB/dx along the axis, instead of B0 (1 - z/H)"),
+      vector("magnetic", "zero_at", length, -inf, false, "0 um, 0 um, 0 um",
+             "where an explicit gradient's field vanishes"),
       flag("magnetic", "dipoles", "true", "carrier-carrier interaction"),
-      {"analysis", "layer", Kind::quantity, &length, 0, inf, true, "2.8 um", {}, {"measured"}, "thickness of the cell-free layer"},
+      {"analysis",
+       "layer",
+       Kind::quantity,
+       &length,
+       0,
+       inf,
+       true,
+       "2.8 um",
+       {},
+       {"measured"},
+       "thickness of the cell-free layer"},
       choice("analysis", "walls", {"lower", "both"}, {}, "lower", "which layers count"),
-      amount("analysis", "average_from", time, 0, inf, false, "0.5 s", "start of the time average of Eq. 46; the default is 0 s in a run that is shorter"),
+      amount("analysis", "average_from", time, 0, inf, false, "0.5 s",
+             "start of the time average of Eq. 46; the default is 0 s in a run that is shorter"),
       amount("run", "time", time, 0, inf, true, "", "simulated time; or give steps"),
       integer("run", "steps", 1, 9.007e15, "", "number of steps; or give time"),
-      amount("run", "checkpoint", time, 0, inf, true, "10 min", "wall time between checkpoints; kept for a later version"),
-      {"output", "fields", Kind::quantity, &time, 0, inf, true, "0.05 s", {"never"}, {}, "simulated time between 3-D snapshots"},
-      {"output", "series", Kind::quantity, &time, 0, inf, true, "0.001 s", {"never"}, {}, "simulated time between rows of margination.csv"},
+      amount("run", "checkpoint", time, 0, inf, true, "10 min",
+             "wall time between checkpoints; kept for a later version"),
+      {"output",
+       "fields",
+       Kind::quantity,
+       &time,
+       0,
+       inf,
+       true,
+       "0.05 s",
+       {"never"},
+       {},
+       "simulated time between 3-D snapshots"},
+      {"output",
+       "series",
+       Kind::quantity,
+       &time,
+       0,
+       inf,
+       true,
+       "0.001 s",
+       {"never"},
+       {},
+       "simulated time between rows of margination.csv"},
   };
   return all;
 }
@@ -126,7 +203,8 @@ std::string range(const Key& key) {
   char text[96] = "";
   const bool low = key.min > -inf, high = key.max < inf;
   if (low && high)
-    std::snprintf(text, sizeof text, "%s %g and at most %g", key.above_min ? "above" : "at least", key.min, key.max);
+    std::snprintf(text, sizeof text, "%s %g and at most %g", key.above_min ? "above" : "at least",
+                  key.min, key.max);
   else if (low)
     std::snprintf(text, sizeof text, "%s %g", key.above_min ? "above" : "at least", key.min);
   return text;
@@ -159,19 +237,31 @@ std::string nearest_name(const std::string& t, const std::string& name) {
 std::string accepted(const Key& key) {
   std::string words;
   switch (key.kind) {
-    case Kind::text: return "a string";
-    case Kind::flag: return "true or false";
-    case Kind::choice: return listed(key.choices);
-    case Kind::list: return "a list";
-    case Kind::integer: words = "a whole number"; break;
-    case Kind::number: words = "a number"; break;
-    case Kind::quantity: words = std::string(key.dimension->noun) + ", e.g. \"" + key.dimension->example + "\""; break;
-    case Kind::vector:
-      words = std::string("three of ") + key.dimension->noun + ", e.g. [\"" + key.dimension->example + "\", ...]";
-      break;
+  case Kind::text:
+    return "a string";
+  case Kind::flag:
+    return "true or false";
+  case Kind::choice:
+    return listed(key.choices);
+  case Kind::list:
+    return "a list";
+  case Kind::integer:
+    words = "a whole number";
+    break;
+  case Kind::number:
+    words = "a number";
+    break;
+  case Kind::quantity:
+    words = std::string(key.dimension->noun) + ", e.g. \"" + key.dimension->example + "\"";
+    break;
+  case Kind::vector:
+    words = std::string("three of ") + key.dimension->noun + ", e.g. [\"" + key.dimension->example +
+            "\", ...]";
+    break;
   }
   const std::string limits = range(key);
-  if (!limits.empty()) words += ", " + limits + (key.dimension ? std::string(" ") + key.dimension->unit : "");
+  if (!limits.empty())
+    words += ", " + limits + (key.dimension ? std::string(" ") + key.dimension->unit : "");
   if (!key.choices.empty()) words += ", or " + listed(key.choices);
   return words;
 }

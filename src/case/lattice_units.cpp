@@ -20,16 +20,17 @@ LatticeUnits lattice_units(const Case& c) {
     units.density = c.fluid.viscosity * units.dt / (nu * n.dx * n.dx);
     return units;
   }
-  units.density = n.cell_reynolds
-                      ? *n.cell_reynolds * c.fluid.viscosity / (c.channel.shear_rate * cell_radius * cell_radius)
-                      : c.fluid.density;
+  units.density = n.cell_reynolds ? *n.cell_reynolds * c.fluid.viscosity /
+                                        (c.channel.shear_rate * cell_radius * cell_radius)
+                                  : c.fluid.density;
   units.dt = nu * n.dx * n.dx * units.density / c.fluid.viscosity;
   return units;
 }
 
 std::array<int, 3> nodes(const Case& c) {
   std::array<int, 3> n{};
-  for (std::size_t d = 0; d < 3; ++d) n[d] = static_cast<int>(std::lround(c.channel.size[d] / c.numerics.dx));
+  for (std::size_t d = 0; d < 3; ++d)
+    n[d] = static_cast<int>(std::lround(c.channel.size[d] / c.numerics.dx));
   return n;
 }
 
@@ -44,10 +45,13 @@ long steps_in(double interval, const LatticeUnits& units) {
   return std::max(1L, std::lround(interval / units.dt));
 }
 
-long steps(const Case& c) { return c.run.steps ? *c.run.steps : steps_in(*c.run.time, lattice_units(c)); }
+long steps(const Case& c) {
+  return c.run.steps ? *c.run.steps : steps_in(*c.run.time, lattice_units(c));
+}
 
 double susceptible_volume(const Carrier& carrier) {
-  return carrier.susceptibility * carrier.magnetic_fraction * 4.0 / 3 * std::numbers::pi * std::pow(carrier.radius, 3);
+  return carrier.susceptibility * carrier.magnetic_fraction * 4.0 / 3 * std::numbers::pi *
+         std::pow(carrier.radius, 3);
 }
 
 GradientField gradient_field(const Case& c) {
@@ -71,7 +75,8 @@ double stokes_friction(const Case& c, const Carrier& carrier) {
 
 double bare_friction(const Case& c, const Carrier& carrier) {
   const double R = ibm::hydrodynamic_radius(ibm::delta_kernel(c.numerics.kernel)) * c.numerics.dx;
-  return carrier.feedback ? stokes_friction(c, carrier) / (1 - carrier.radius / R) : stokes_friction(c, carrier);
+  return carrier.feedback ? stokes_friction(c, carrier) / (1 - carrier.radius / R)
+                          : stokes_friction(c, carrier);
 }
 
 }  // namespace hemomag::case_

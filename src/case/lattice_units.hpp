@@ -18,16 +18,16 @@ struct LatticeUnits {
 
   double mass() const { return density * dx * dx * dx; }
   double velocity() const { return dx / dt; }
-  double tension() const { return mass() / (dt * dt); }           ///< [N/m]
-  double force() const { return tension() * dx; }                 ///< [N]
-  double energy() const { return force() * dx; }                  ///< [J]
-  double pressure() const { return tension() / dx; }              ///< [Pa]
-  double force_density() const { return pressure() / dx; }        ///< [N/m3]
-  double magnetic_field() const;                                  ///< [T], so that mu* = 1
+  double tension() const { return mass() / (dt * dt); }     ///< [N/m]
+  double force() const { return tension() * dx; }           ///< [N]
+  double energy() const { return force() * dx; }            ///< [J]
+  double pressure() const { return tension() / dx; }        ///< [Pa]
+  double force_density() const { return pressure() / dx; }  ///< [N/m3]
+  double magnetic_field() const;                            ///< [T], so that mu* = 1
 };
 
-/// The units of a case. tau and dx leave one freedom, fixed by dt, by cell_reynolds (rho = Re mu/(shear R^2)), or by
-/// the real density: nu_l = (tau - 1/2)/3, dt = nu_l dx^2 rho/mu.
+/// The units of a case. tau and dx leave one freedom, fixed by dt, by cell_reynolds (rho = Re
+/// mu/(shear R^2)), or by the real density: nu_l = (tau - 1/2)/3, dt = nu_l dx^2 rho/mu.
 LatticeUnits lattice_units(const Case& c);
 
 /// Nodes along each axis; the reader has made sure that size/dx is whole.
@@ -43,7 +43,8 @@ long steps_in(double interval, const LatticeUnits& units);
 /// chi V_c of a carrier bead [m3] (Eq. 22).
 double susceptible_volume(const Carrier& carrier);
 
-/// The gradient of |B| [T/m] and where the field vanishes [m] along its axis; the default is B0 (1 - z/H).
+/// The gradient of |B| [T/m] and where the field vanishes [m] along its axis; the default is B0 (1
+/// - z/H).
 struct GradientField {
   double slope = 0;
   double zero = 0;

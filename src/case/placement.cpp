@@ -13,30 +13,34 @@
 namespace hemomag::case_ {
 namespace {
 
-constexpr double cell_gap = 0.40e-6;          // between vertices of different cells [m]
-constexpr double plate_gap = 0.3e-6;          // cells from the plates
+constexpr double cell_gap = 0.40e-6;  // between vertices of different cells [m]
+constexpr double plate_gap = 0.3e-6;  // cells from the plates
 constexpr double carrier_plate_gap = 0.25e-6;
 constexpr double carrier_cell_gap = 0.56e-6;  // the reach of the cell-carrier repulsion
 constexpr long most_tries = 1'000'000;
 
 class Random {
- public:
+public:
   explicit Random(std::uint64_t seed) : bits_(seed) {}
-  double uniform(double lo, double hi) { return lo + (hi - lo) * static_cast<double>(bits_() >> 11) * 0x1p-53; }
+  double uniform(double lo, double hi) {
+    return lo + (hi - lo) * static_cast<double>(bits_() >> 11) * 0x1p-53;
+  }
   /// Uniform on the unit sphere.
   Vec3 direction() {
-    const double z = uniform(-1, 1), phi = uniform(0, 2 * std::numbers::pi), r = std::sqrt(1 - z * z);
+    const double z = uniform(-1, 1), phi = uniform(0, 2 * std::numbers::pi),
+                 r = std::sqrt(1 - z * z);
     return {r * std::cos(phi), r * std::sin(phi), z};
   }
 
- private:
+private:
   std::mt19937_64 bits_;
 };
 
 /// Distances in the channel: periodic along x and y, along z too without plates.
 class Box {
- public:
-  explicit Box(const Case& c) : size(c.channel.size), periodic{true, true, c.channel.boundary == Boundary::periodic} {}
+public:
+  explicit Box(const Case& c)
+      : size(c.channel.size), periodic{true, true, c.channel.boundary == Boundary::periodic} {}
   Vec3 nearest(Vec3 d) const {
     for (std::size_t a = 0; a < 3; ++a)
       if (periodic[a]) d[a] -= size[a] * std::round(d[a] / size[a]);
@@ -51,10 +55,11 @@ class Box {
 
 /// Points sorted into bins at least as wide as the distance that is asked about.
 class Bins {
- public:
+public:
   Bins(const Box& box, double reach) : box_(box), reach2_(reach * reach) {
     for (std::size_t d = 0; d < 3; ++d) n_[d] = std::max(1, static_cast<int>(box.size[d] / reach));
-    bins_.resize(static_cast<std::size_t>(n_[0]) * static_cast<std::size_t>(n_[1]) * static_cast<std::size_t>(n_[2]));
+    bins_.resize(static_cast<std::size_t>(n_[0]) * static_cast<std::size_t>(n_[1]) *
+                 static_cast<std::size_t>(n_[2]));
   }
   void add(const Vec3& x) { bins_[bin(index(x, 0), index(x, 1), index(x, 2))].push_back(x); }
   bool any_near(const Vec3& x) const {
@@ -67,13 +72,14 @@ class Bins {
     return false;
   }
 
- private:
+private:
   int index(const Vec3& x, std::size_t d) const {
     return static_cast<int>(std::floor(x[d] / box_.size[d] * n_[d]));
   }
   std::size_t bin(int i, int j, int k) const {
     const auto wrap = [](int a, int n) { return static_cast<std::size_t>((a % n + n) % n); };
-    return (wrap(k, n_[2]) * static_cast<std::size_t>(n_[1]) + wrap(j, n_[1])) * static_cast<std::size_t>(n_[0]) +
+    return (wrap(k, n_[2]) * static_cast<std::size_t>(n_[1]) + wrap(j, n_[1])) *
+               static_cast<std::size_t>(n_[0]) +
            wrap(i, n_[0]);
   }
   Box box_;
@@ -110,8 +116,9 @@ std::string cell_key(const Case& c, std::size_t model) {
 
 /// Everything placed so far.
 class Packing {
- public:
-  explicit Packing(const Case& c) : box_(c), vertices_(box_, cell_gap), carriers_near_(box_, carrier_cell_gap) {}
+public:
+  explicit Packing(const Case& c)
+      : box_(c), vertices_(box_, cell_gap), carriers_near_(box_, carrier_cell_gap) {}
 
   bool fits(const CellModel& model, const Pose& pose) const {
     for (const Vec3& p : model.mesh.x) {
@@ -137,12 +144,13 @@ class Packing {
   }
 
   bool carrier_fits(const Vec3& x) const {
-    return box_.between_plates(x, carrier_plate_gap) && !carriers_near_.any_near(x) && !inside_any(x);
+    return box_.between_plates(x, carrier_plate_gap) && !carriers_near_.any_near(x) &&
+           !inside_any(x);
   }
 
   const Box& box() const { return box_; }
 
- private:
+private:
   bool inside_any(const Vec3& x) const {
     return std::any_of(poses_.begin(), poses_.end(),
                        [&](const Pose& p) { return p.inside(box_.nearest(x - p.centre)); });
@@ -153,12 +161,13 @@ class Packing {
   std::vector<std::vector<Vec3>> placed_;
 };
 
-void place_at_random(System& system, Packing& packing, const Case& c, std::size_t model, int count, Random& random) {
+void place_at_random(System& system, Packing& packing, const Case& c, std::size_t model, int count,
+                     Random& random) {
   long tries = 0;
   for (int placed = 0; placed < count; ++tries) {
     if (tries >= most_tries)
-      throw Error(cell_key(c, model) + ": random placement put " + std::to_string(placed) + " of " + std::to_string(count) +
-                  " cells after " + std::to_string(tries) +
+      throw Error(cell_key(c, model) + ": random placement put " + std::to_string(placed) + " of " +
+                  std::to_string(count) + " cells after " + std::to_string(tries) +
                   " tries; accepted: fewer cells, or a packed state (placement \"compress\")");
     const Pose pose = random_pose(random, packing.box());
     if (!packing.fits(system.models[model], pose)) continue;
@@ -171,27 +180,33 @@ void place_at_random(System& system, Packing& packing, const Case& c, std::size_
 void place_on_grid(System& system, Packing& packing, const Case& c, std::size_t model, int count) {
   const auto& x = system.models[model].mesh.x;
   double rim = 0, top = 0;
-  for (const Vec3& p : x) rim = std::max(rim, std::hypot(p.x, p.y)), top = std::max(top, std::fabs(p.z));
+  for (const Vec3& p : x)
+    rim = std::max(rim, std::hypot(p.x, p.y)), top = std::max(top, std::fabs(p.z));
   const auto& box = packing.box();
   const double side = 2 * rim + 1.05 * cell_gap, height = 2 * top + 1.05 * cell_gap;
   const double margin = box.periodic[2] ? 0 : plate_gap - cell_gap / 2;
   const int nx = static_cast<int>(box.size[0] / side), ny = static_cast<int>(box.size[1] / side),
             nz = static_cast<int>((box.size[2] - 2 * margin) / height);
   if (static_cast<long>(nx) * ny * nz < count)
-    throw Error(cell_key(c, model) + ": a grid has room for " + std::to_string(nx * ny * nz) + " of " + std::to_string(count) +
+    throw Error(cell_key(c, model) + ": a grid has room for " + std::to_string(nx * ny * nz) +
+                " of " + std::to_string(count) +
                 " cells; accepted: fewer cells, or a packed state (placement \"compress\")");
   for (int n = 0; n < count; ++n) {
     const int i = n % nx, j = n / nx % ny, k = n / (nx * ny);
     const Pose pose{{(i + 0.5) * box.size[0] / nx, (j + 0.5) * box.size[1] / ny,
                      margin + (k + 0.5) * (box.size[2] - 2 * margin) / nz},
-                    {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+                    {1, 0, 0},
+                    {0, 1, 0},
+                    {0, 0, 1}};
     if (!packing.fits(system.models[model], pose))
-      throw Error(cell_key(c, model) + ": the grid overlaps cells of another entry; accepted: random placement of one");
+      throw Error(cell_key(c, model) +
+                  ": the grid overlaps cells of another entry; accepted: random placement of one");
     system.cells.push_back({model, packing.add(system.models[model], pose)});
   }
 }
 
-void place_carriers(System& system, const Packing& packing, const Case& c, std::size_t entry, Random& random) {
+void place_carriers(System& system, const Packing& packing, const Case& c, std::size_t entry,
+                    Random& random) {
   const Carrier& carrier = c.carriers[entry];
   const Box& box = packing.box();
   const bool worm = carrier.kind == CarrierKind::worm;
@@ -200,7 +215,8 @@ void place_carriers(System& system, const Packing& packing, const Case& c, std::
   long tries = 0;
   for (int placed = 0; placed < carrier.count; ++tries) {
     if (tries >= most_tries)
-      throw Error(position(c, entry_path("carrier", entry, c.carriers.size()) + ".count") + ": " + std::to_string(placed) + " of " + std::to_string(carrier.count) +
+      throw Error(position(c, entry_path("carrier", entry, c.carriers.size()) + ".count") + ": " +
+                  std::to_string(placed) + " of " + std::to_string(carrier.count) +
                   " carriers found a place outside the cells; accepted: fewer");
     Vec3 x;
     for (std::size_t d = 0; d < 3; ++d) {
@@ -241,7 +257,8 @@ std::vector<CellModel> cell_models(const Case& c) {
 int cell_count(const Case& c, const Cell& cell, const CellModel& model) {
   if (cell.count) return *cell.count;
   const auto& s = c.channel.size;
-  return static_cast<int>(std::lround(cell.hematocrit.value_or(0) * s[0] * s[1] * s[2] / model.volume));
+  return static_cast<int>(
+      std::lround(cell.hematocrit.value_or(0) * s[0] * s[1] * s[2] / model.volume));
 }
 
 System place(const Case& c) {
@@ -259,7 +276,8 @@ System place(const Case& c) {
       else
         place_at_random(system, packing, c, m, count, random);
     }
-  for (std::size_t entry = 0; entry < c.carriers.size(); ++entry) place_carriers(system, packing, c, entry, random);
+  for (std::size_t entry = 0; entry < c.carriers.size(); ++entry)
+    place_carriers(system, packing, c, entry, random);
   return system;
 }
 

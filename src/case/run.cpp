@@ -42,14 +42,17 @@ int prepare(const Case& c, const RunOptions& options, std::string& data, std::st
     return bad_input;
   }
   if (std::filesystem::exists(options.out) && !options.force)
-    return fail("--out " + options.out + ": exists already; accepted: another directory, or --force to replace it", bad_input);
+    return fail("--out " + options.out +
+                    ": exists already; accepted: another directory, or --force to replace it",
+                bad_input);
   const System system = place(c);
   data = cells_data(c, system);
   script = lammps_script(c, system);
   return done;
 }
 
-void write_directory(const Case& c, const RunOptions& options, const std::string& data, const std::string& script) {
+void write_directory(const Case& c, const RunOptions& options, const std::string& data,
+                     const std::string& script) {
   std::filesystem::remove_all(options.out);
   io::make_directory(options.out);
   io::replace_file(options.out + "/case.toml", c.text);
@@ -62,7 +65,8 @@ void execute(lammps::Host& host, const std::string& path, double dt) {
   std::ifstream script(path);
   if (!script) throw Error(path + ": cannot be read");
   for (std::string line; std::getline(script, line);) {
-    if (line.rfind("run ", 0) == 0) host.command("fix progress all hemo/progress dt_s " + std::to_string(dt * 1e6) + "e-6");
+    if (line.rfind("run ", 0) == 0)
+      host.command("fix progress all hemo/progress dt_s " + std::to_string(dt * 1e6) + "e-6");
     host.command(line);
   }
 }
@@ -74,31 +78,33 @@ nlohmann::json summary(const Case& c, lammps::Host& host, double wall_s) {
   const auto* watch = lammps::find_fix<LAMMPS_NS::FixHemoWatch>(&host.lammps(), "hemo/watch");
   const auto& seen = watch->record();
   const double updates = static_cast<double>(n[0]) * n[1] * n[2] * static_cast<double>(steps(c));
-  return {{"title", c.title},
-          {"steps", steps(c)},
-          {"dt_s", units.dt},
-          {"dx_m", units.dx},
-          {"wall_s", wall_s},
-          {"mlups", updates / wall_s / 1e6},
-          {"probability_end", series ? nlohmann::json(series->probability_end()) : nlohmann::json()},
-          {"probability_mean", series ? nlohmann::json(series->probability_mean()) : nlohmann::json()},
-          {"cells_start", seen.cells_start},
-          {"cells_end", seen.cells_end},
-          {"carriers_start", seen.carriers_start},
-          {"carriers_end", seen.carriers_end},
-          {"carriers_inside_max", seen.carriers_inside_max},
-          {"mach_max", seen.mach_max},
-          {"area_drift_max", seen.area_drift_max},
-          {"volume_drift_max", seen.volume_drift_max}};
+  return {
+      {"title", c.title},
+      {"steps", steps(c)},
+      {"dt_s", units.dt},
+      {"dx_m", units.dx},
+      {"wall_s", wall_s},
+      {"mlups", updates / wall_s / 1e6},
+      {"probability_end", series ? nlohmann::json(series->probability_end()) : nlohmann::json()},
+      {"probability_mean", series ? nlohmann::json(series->probability_mean()) : nlohmann::json()},
+      {"cells_start", seen.cells_start},
+      {"cells_end", seen.cells_end},
+      {"carriers_start", seen.carriers_start},
+      {"carriers_end", seen.carriers_end},
+      {"carriers_inside_max", seen.carriers_inside_max},
+      {"mach_max", seen.mach_max},
+      {"area_drift_max", seen.area_drift_max},
+      {"volume_drift_max", seen.volume_drift_max}};
 }
 
 void print_summary(const nlohmann::json& s, const std::string& out) {
   std::printf("%ld steps in %.1f s\n", s["steps"].get<long>(), s["wall_s"].get<double>());
   if (!s["probability_end"].is_null())
-    std::printf("margination probability %.3f at the end, %.3f in the mean\n", s["probability_end"].get<double>(),
-                s["probability_mean"].get<double>());
+    std::printf("margination probability %.3f at the end, %.3f in the mean\n",
+                s["probability_end"].get<double>(), s["probability_mean"].get<double>());
   if (s["carriers_inside_max"].get<long>() > 0)
-    std::printf("warning: up to %ld carriers were inside cells at one time\n", s["carriers_inside_max"].get<long>());
+    std::printf("warning: up to %ld carriers were inside cells at one time\n",
+                s["carriers_inside_max"].get<long>());
   std::printf("output in %s\n", out.c_str());
 }
 

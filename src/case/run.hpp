@@ -12,8 +12,8 @@ struct RunOptions {
   bool force = false;  ///< replace an existing one
 };
 
-/// The main job: write the run directory, run it, sum it up. Collective; every rank returns the same exit code
-/// (docs/command_line.md). Rank 0 prints.
+/// The main job: write the run directory, run it, sum it up. Collective; every rank returns the
+/// same exit code (docs/command_line.md). Rank 0 prints.
 int run_case(const Case& c, const RunOptions& options, MPI_Comm comm);
 
 }  // namespace hemomag::case_

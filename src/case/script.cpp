@@ -11,10 +11,11 @@
 namespace hemomag::case_ {
 namespace {
 
-constexpr double skin = 1.2;              // nodes; flow carries atoms past half of it every dozen steps
-constexpr double dipole_radii = 12;       // cut-off of the dipole forces: 0.08 % of the contact pull beyond it
+constexpr double skin = 1.2;  // nodes; flow carries atoms past half of it every dozen steps
+constexpr double dipole_radii =
+    12;  // cut-off of the dipole forces: 0.08 % of the contact pull beyond it
 constexpr double soft_kappa = 30;
-constexpr double mesh_reference = 3286;   // vertices for which contact energies are given
+constexpr double mesh_reference = 3286;  // vertices for which contact energies are given
 constexpr int watch_every = 100;
 
 [[gnu::format(printf, 2, 3)]] void line(std::string& text, const char* format, ...) {
@@ -28,17 +29,21 @@ constexpr int watch_every = 100;
 }
 
 class Script {
- public:
+public:
   Script(const Case& c, const System& system)
-      : c_(c), system_(system), units_(lattice_units(c)), cells_(c.cells.size()), carriers_(c.carriers.size()) {
+      : c_(c), system_(system), units_(lattice_units(c)), cells_(c.cells.size()),
+        carriers_(c.carriers.size()) {
     for (const Carrier& carrier : c.carriers) worms_ = worms_ || carrier.kind == CarrierKind::worm;
   }
 
   std::string write() {
     const char* z = c_.channel.boundary == Boundary::plates ? "f" : "p";
     line(t_, "# %s", c_.title.c_str());
-    line(t_, "# lattice units: dx = %.9g m, dt = %.9g s, density = %.9g kg/m3", units_.dx, units_.dt, units_.density);
-    line(t_, "units lj\natom_style molecular\nnewton on\nboundary p p %s\nspecial_bonds lj/coul 1 1 1", z);
+    line(t_, "# lattice units: dx = %.9g m, dt = %.9g s, density = %.9g kg/m3", units_.dx,
+         units_.dt, units_.density);
+    line(t_,
+         "units lj\natom_style molecular\nnewton on\nboundary p p %s\nspecial_bonds lj/coul 1 1 1",
+         z);
     line(t_, "neighbor %g bin\ncomm_modify cutoff %.9g", skin, ghost_cutoff());
     bonded_styles();
     line(t_, "read_data cells.data");
@@ -47,13 +52,15 @@ class Script {
     pairs();
     fixes();
     observers();
-    line(t_, "timestep 1.0\nthermo_style custom step atoms ebond eangle edihed epair f_fluid\nthermo %ld",
+    line(t_,
+         "timestep 1.0\nthermo_style custom step atoms ebond eangle edihed epair f_fluid\nthermo "
+         "%ld",
          std::max(1L, steps(c_) / 100));
     line(t_, "run %ld", steps(c_));
     return t_;
   }
 
- private:
+private:
   double length(double metres) const { return metres / units_.dx; }
 
   /// The largest distance between atoms that share a hinge or a pair, and the skin.
@@ -90,8 +97,8 @@ class Script {
 
   void group(const char* name, std::size_t first, std::size_t count) {
     if (count == 0) return;
-    t_ += std::string("group ") + name + " type";
-    for (std::size_t k = 0; k < count; ++k) t_ += " " + std::to_string(first + k);
+    append("group %s type", name);
+    for (std::size_t k = 0; k < count; ++k) append(" %zu", first + k);
     t_ += "\n";
   }
 
@@ -130,15 +137,16 @@ class Script {
     for (std::size_t i = 0; i < cells_; ++i) {
       for (std::size_t j = i; j < cells_; ++j) {
         const double scale = finer(i) * finer(j) * thermal;
-        t_ += "pair_coeff " + std::to_string(i + 1) + " " + std::to_string(j + 1) + " " + style;
+        append("pair_coeff %zu %zu %s", i + 1, j + 1, style);
         if (k.morse_depth > 0)
-          append("morse %.9g %.9g %.9g %.9g ", k.morse_depth * scale, k.morse_beta * units_.dx, length(k.morse_r0),
-                 length(k.morse_cutoff));
-        append("lj %.9g %.9g\n", k.epsilon * scale, length(cell_sigma(c_, system_.models[i], system_.models[j])));
+          append("morse %.9g %.9g %.9g %.9g ", k.morse_depth * scale, k.morse_beta * units_.dx,
+                 length(k.morse_r0), length(k.morse_cutoff));
+        append("lj %.9g %.9g\n", k.epsilon * scale,
+               length(cell_sigma(c_, system_.models[i], system_.models[j])));
       }
       for (std::size_t b = 0; b < carriers_; ++b)
-        line(t_, "pair_coeff %zu %zu %slj %.9g %.9g", i + 1, cells_ + b + 1, style, k.epsilon * finer(i) * thermal,
-             length(k.carrier_sigma));
+        line(t_, "pair_coeff %zu %zu %slj %.9g %.9g", i + 1, cells_ + b + 1, style,
+             k.epsilon * finer(i) * thermal, length(k.carrier_sigma));
     }
   }
 
@@ -154,8 +162,8 @@ class Script {
         if (c_.contact.repulsion == Repulsion::soft)
           line(t_, "pair_coeff %zu %zu %s%.9g soft %g", i, j, style, contact, soft_kappa);
         else  // Eq. 26: epsilon = 0.1 kBT, sigma = 0.1 a
-          line(t_, "pair_coeff %zu %zu %s%.9g paper %.9g %.9g", i, j, style, contact, 0.1 * kBT / units_.energy(),
-               0.05 * contact);
+          line(t_, "pair_coeff %zu %zu %s%.9g paper %.9g %.9g", i, j, style, contact,
+               0.1 * kBT / units_.energy(), 0.05 * contact);
       }
   }
 
@@ -172,7 +180,8 @@ class Script {
     if (cells_ > 0) line(t_, "fix advect cells hemo/advect");
     if (carriers_ > 0) {
       t_ += "fix drag carriers hemo/drag";
-      for (std::size_t b = 0; b < carriers_; ++b) append(" radius %zu %.9g", cells_ + b + 1, length(c_.carriers[b].radius));
+      for (std::size_t b = 0; b < carriers_; ++b)
+        append(" radius %zu %.9g", cells_ + b + 1, length(c_.carriers[b].radius));
       line(t_, " feedback %s", c_.carriers[0].feedback ? "yes" : "no");
       field();
     }
@@ -203,36 +212,40 @@ class Script {
     if (c_.channel.boundary != Boundary::plates || cells_ + carriers_ == 0) return;
     const double sigma = length(c_.contact.plate_sigma), epsilon = kBT / units_.energy();
     const double cut = contact::lj_cutoff_over_sigma * sigma;
-    line(t_, "fix plates all wall/lj126 zlo EDGE %.9g %.9g %.9g zhi EDGE %.9g %.9g %.9g", epsilon, sigma, cut, epsilon,
-         sigma, cut);
+    line(t_, "fix plates all wall/lj126 zlo EDGE %.9g %.9g %.9g zhi EDGE %.9g %.9g %.9g", epsilon,
+         sigma, cut, epsilon, sigma, cut);
   }
 
   void fluid() {
-    append("fix fluid all hemo/fluid tau %.12g scheme trt kernel %s", c_.numerics.tau, c_.numerics.kernel.c_str());
+    append("fix fluid all hemo/fluid tau %.12g scheme trt kernel %s", c_.numerics.tau,
+           c_.numerics.kernel.c_str());
     if (c_.channel.boundary == Boundary::plates) {
       const auto v = plate_velocity(c_);
-      append(" plates z lower 0 %.12g 0 upper 0 %.12g 0", v[0] / units_.velocity(), v[1] / units_.velocity());
+      append(" plates z lower 0 %.12g 0 upper 0 %.12g 0", v[0] / units_.velocity(),
+             v[1] / units_.velocity());
       if (c_.channel.shear_rate != 0) append(" initial linear");
     }
     const auto& g = c_.channel.body_force;
     if (g[0] != 0 || g[1] != 0 || g[2] != 0)
-      append(" force %.12g %.12g %.12g", g[0] / units_.force_density(), g[1] / units_.force_density(),
-             g[2] / units_.force_density());
+      append(" force %.12g %.12g %.12g", g[0] / units_.force_density(),
+             g[1] / units_.force_density(), g[2] / units_.force_density());
     t_ += "\n";
   }
 
   void observers() {
     const double dx_um = units_.dx * 1e6;
     if (carriers_ > 0) {
-      line(t_, "compute margination carriers hemo/margination layer %.9g walls %s", length(c_.analysis.layer),
-           c_.analysis.walls == LayerWalls::lower ? "lower" : "both");
+      line(t_, "compute margination carriers hemo/margination layer %.9g walls %s",
+           length(c_.analysis.layer), c_.analysis.walls == LayerWalls::lower ? "lower" : "both");
       if (c_.output.series)
-        line(t_, "fix series all hemo/series %ld margination margination.csv dt_s %.12g average_from %.9g",
+        line(t_,
+             "fix series all hemo/series %ld margination margination.csv dt_s %.12g average_from "
+             "%.9g",
              steps_in(*c_.output.series, units_), units_.dt, c_.analysis.average_from);
     }
     if (c_.output.fields)
-      line(t_, "fix snapshot all hemo/snapshot %ld fields dx_um %.12g dt_s %.12g", steps_in(*c_.output.fields, units_),
-           dx_um, units_.dt);
+      line(t_, "fix snapshot all hemo/snapshot %ld fields dx_um %.12g dt_s %.12g",
+           steps_in(*c_.output.fields, units_), dx_um, units_.dt);
     append("fix watch all hemo/watch %d mach_max 0.3", watch_every);
     if (cells_ > 0) append(" cells cells");
     if (carriers_ > 0) append(" carriers carriers");
@@ -258,7 +271,8 @@ double dipole_cutoff(const Case& c) {
 }
 
 double cell_sigma(const Case& c, const CellModel& a, const CellModel& b) {
-  return c.contact.cell_sigma.value_or(std::max(0.25e-6, 0.6 * std::max(a.longest_edge, b.longest_edge)));
+  return c.contact.cell_sigma.value_or(
+      std::max(0.25e-6, 0.6 * std::max(a.longest_edge, b.longest_edge)));
 }
 
 }  // namespace hemomag::case_

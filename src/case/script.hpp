@@ -6,13 +6,14 @@
 
 namespace hemomag::case_ {
 
-/// in.lammps: the whole run as a plain script for `hemomag lmp`, in lattice units. File names are relative to the run
-/// directory.
+/// in.lammps: the whole run as a plain script for `hemomag lmp`, in lattice units. File names are
+/// relative to the run directory.
 std::string lammps_script(const Case& c, const System& system);
 
 /// Distance between bonded carrier contacts and cut-offs that script and card share, in nodes.
 double dipole_cutoff(const Case& c);
-/// sigma of the cell-cell repulsion [m]: the case's, or 0.6 times the longest rest edge, at least 0.25 um.
+/// sigma of the cell-cell repulsion [m]: the case's, or 0.6 times the longest rest edge, at least
+/// 0.25 um.
 double cell_sigma(const Case& c, const CellModel& a, const CellModel& b);
 
 }  // namespace hemomag::case_

@@ -29,7 +29,8 @@ ut_system* units() {
         return ut_read_xml(nullptr);
       }(),
       ut_free_system);
-  if (!system) throw Error("the unit database of UDUNITS-2 cannot be read (package libudunits2-data)");
+  if (!system)
+    throw Error("the unit database of UDUNITS-2 cannot be read (package libudunits2-data)");
   return system.get();
 }
 
@@ -39,18 +40,25 @@ std::string_view trim(std::string_view s) {
   return s;
 }
 
-/// UDUNITS takes much that is no plain unit: a second number ("2-3 um"), an origin ("um since 2000", "um @ 3"), an
-/// angle in a rate (rpm is 2 pi/60 to it). A plain unit is words with exponents between '.', '*', '/', '^' and spaces.
+/// UDUNITS takes much that is no plain unit: a second number ("2-3 um"), an origin ("um since
+/// 2000", "um @ 3"), an angle in a rate (rpm is 2 pi/60 to it). A plain unit is words with
+/// exponents between '.', '*', '/', '^' and spaces.
 bool plain_unit(std::string_view unit) {
-  if (unit.empty() || !(std::isalpha(static_cast<unsigned char>(unit.front())) || (unit.front() & 0x80))) return false;
-  for (const char* word : {"since", "after", "from", "ref", "rpm", "rad", "deg", "turn", "rev", "arc", "cycle", "lg", "ln", "lb"})
+  if (unit.empty() ||
+      !(std::isalpha(static_cast<unsigned char>(unit.front())) || (unit.front() & 0x80)))
+    return false;
+  for (const char* word : {"since", "after", "from", "ref", "rpm", "rad", "deg", "turn", "rev",
+                           "arc", "cycle", "lg", "ln", "lb"})
     if (unit.find(word) != std::string_view::npos) return false;
   char before = ' ';
   for (const char c : unit) {
     const auto u = static_cast<unsigned char>(c);
     if (std::isdigit(u)) {
-      if (!(std::isalnum(static_cast<unsigned char>(before)) || before == '-' || before == '^' || before == '+')) return false;
-    } else if (!(std::isalpha(u) || (u & 0x80) || c == '.' || c == '*' || c == '/' || c == '^' || c == '-' || c == ' ')) {
+      if (!(std::isalnum(static_cast<unsigned char>(before)) || before == '-' || before == '^' ||
+            before == '+'))
+        return false;
+    } else if (!(std::isalpha(u) || (u & 0x80) || c == '.' || c == '*' || c == '/' || c == '^' ||
+                 c == '-' || c == ' ')) {
       return false;
     }
     before = c;
@@ -61,7 +69,8 @@ bool plain_unit(std::string_view unit) {
 Unit parse_unit(std::string_view text) {
   // Symbols of the field that UDUNITS reads otherwise or not at all.
   std::string spelled(text);
-  for (const auto& [symbol, name] : {std::pair{"G", "gauss"}, {"mG", "milligauss"}, {"P", "poise"}, {"cP", "centipoise"}})
+  for (const auto& [symbol, name] :
+       {std::pair{"G", "gauss"}, {"mG", "milligauss"}, {"P", "poise"}, {"cP", "centipoise"}})
     if (text == symbol) spelled = name;
   return Unit(ut_parse(units(), spelled.c_str(), UT_UTF8));
 }
@@ -69,20 +78,25 @@ Unit parse_unit(std::string_view text) {
 }  // namespace
 
 double quantity(std::string_view text, const Dimension& dimension) {
-  const std::string expected = std::string(dimension.noun) + " is expected, e.g. \"" + dimension.example + "\"";
+  const std::string expected =
+      std::string(dimension.noun) + " is expected, e.g. \"" + dimension.example + "\"";
   const std::string given = "\"" + std::string(text) + "\"";
   const std::string_view body = trim(text);
   double number = 0;
   const char* first = body.data() + (!body.empty() && body.front() == '+' ? 1 : 0);
   const auto [rest, status] = std::from_chars(first, body.data() + body.size(), number);
-  if (status != std::errc{} || !std::isfinite(number)) throw Error(given + " does not begin with a number; " + expected);
-  const std::string_view unit = trim({rest, static_cast<std::size_t>(body.data() + body.size() - rest)});
+  if (status != std::errc{} || !std::isfinite(number))
+    throw Error(given + " does not begin with a number; " + expected);
+  const std::string_view unit =
+      trim({rest, static_cast<std::size_t>(body.data() + body.size() - rest)});
   if (unit.empty()) throw Error(given + " has no unit; " + expected);
   const Unit from = plain_unit(unit) ? parse_unit(unit) : nullptr;
   if (!from) throw Error("\"" + std::string(unit) + "\" is not a unit; " + expected);
   const Unit to = parse_unit(dimension.unit);
-  if (!ut_are_convertible(from.get(), to.get())) throw Error(given + " is not " + dimension.noun + "; " + expected);
-  const std::unique_ptr<cv_converter, FreeConverter> convert(ut_get_converter(from.get(), to.get()));
+  if (!ut_are_convertible(from.get(), to.get()))
+    throw Error(given + " is not " + dimension.noun + "; " + expected);
+  const std::unique_ptr<cv_converter, FreeConverter> convert(
+      ut_get_converter(from.get(), to.get()));
   if (!convert) throw Error("\"" + std::string(unit) + "\" cannot be converted; " + expected);
   return cv_convert_double(convert.get(), number);
 }

@@ -3,11 +3,12 @@
 
 namespace hemomag::contact {
 
-/// Morse attraction between the membranes of two cells (Eq. 39), cut at `cutoff` without a shift, as printed.
+/// Morse attraction between the membranes of two cells (Eq. 39), cut at `cutoff` without a shift,
+/// as printed.
 struct Morse {
-  double depth = 0;   ///< D0 [energy]
-  double beta = 0;    ///< [1/length]
-  double r0 = 0;      ///< distance of the minimum
+  double depth = 0;  ///< D0 [energy]
+  double beta = 0;   ///< [1/length]
+  double r0 = 0;     ///< distance of the minimum
   double cutoff = 0;
 };
 

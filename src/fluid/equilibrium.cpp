@@ -4,7 +4,8 @@
 
 namespace hemomag::fluid {
 
-std::array<double, 19> populations(double rho, const Vec3& u, const VelocityGradient& grad_u, double tau) {
+std::array<double, 19> populations(double rho, const Vec3& u, const VelocityGradient& grad_u,
+                                   double tau) {
   using namespace lattice::d3q19;
   const double divergence = grad_u[0].x + grad_u[1].y + grad_u[2].z;
   std::array<double, 19> g{};

@@ -24,8 +24,8 @@ enum class Moment { before_shift, after_shift };
 
 // The population that leaves the fluid along j and the one that returns along opposite(j) sit at
 //              leaving             returning
-//   before     slot opp(j) of x    slot j of x + e_j... seen from opp(j): slot opp(opp(j)) of x - e_opp(j)
-//   after      slot j of x + e_j   slot opp(j) of x
+//   before     slot opp(j) of x    slot j of x + e_j... seen from opp(j): slot opp(opp(j)) of x -
+//   e_opp(j) after      slot j of x + e_j   slot opp(j) of x
 // so both moments copy between the same two places, in opposite senses.
 template <Moment moment>
 Vec3 bounce(const Plate& plate, const Populations& f, const lattice::NodeLayout& layout) {
@@ -53,8 +53,8 @@ Vec3 bounce(const Plate& plate, const Populations& f, const lattice::NodeLayout&
 
 /// Visit pairs of rows (ghost, mirror) of the two ghost layers that a four-point kernel can reach.
 template <class Visit>
-void for_each_mirror_row(const Plate& plate, const lattice::NodeLayout& layout, lattice::NodeBox box,
-                         Visit visit) {
+void for_each_mirror_row(const Plate& plate, const lattice::NodeLayout& layout,
+                         lattice::NodeBox box, Visit visit) {
   const int last = layout.size[plate.axis] - 1;
   for (int depth = 0; depth < layout.halo && depth <= last; ++depth) {
     const int ghost = plate.side == Side::low ? -1 - depth : last + 1 + depth;
@@ -70,36 +70,40 @@ void for_each_mirror_row(const Plate& plate, const lattice::NodeLayout& layout, 
 
 }  // namespace
 
-Vec3 bounce_before_shift(const Plate& plate, const Populations& f, const lattice::NodeLayout& layout) {
+Vec3 bounce_before_shift(const Plate& plate, const Populations& f,
+                         const lattice::NodeLayout& layout) {
   return bounce<Moment::before_shift>(plate, f, layout);
 }
 
-Vec3 bounce_after_shift(const Plate& plate, const Populations& f, const lattice::NodeLayout& layout) {
+Vec3 bounce_after_shift(const Plate& plate, const Populations& f,
+                        const lattice::NodeLayout& layout) {
   return bounce<Moment::after_shift>(plate, f, layout);
 }
 
-void fill_mirror_velocity(const Plate& plate, const NodeVector& u, const lattice::NodeLayout& layout,
-                          const lattice::NodeBox& box) {
+void fill_mirror_velocity(const Plate& plate, const NodeVector& u,
+                          const lattice::NodeLayout& layout, const lattice::NodeBox& box) {
   for (int d = 0; d < 3; ++d) {
     const double twice = 2.0 * plate.velocity[static_cast<std::size_t>(d)];
-    for_each_mirror_row(plate, layout, box, [&](std::ptrdiff_t ghost, std::ptrdiff_t mirror, int n) {
-      for (int x = 0; x < n; ++x) u[d][ghost + x] = twice - u[d][mirror + x];
-    });
+    for_each_mirror_row(plate, layout, box,
+                        [&](std::ptrdiff_t ghost, std::ptrdiff_t mirror, int n) {
+                          for (int x = 0; x < n; ++x) u[d][ghost + x] = twice - u[d][mirror + x];
+                        });
   }
 }
 
-Vec3 fold_mirror_force(const Plate& plate, const NodeVector& force, const lattice::NodeLayout& layout,
-                       const lattice::NodeBox& box) {
+Vec3 fold_mirror_force(const Plate& plate, const NodeVector& force,
+                       const lattice::NodeLayout& layout, const lattice::NodeBox& box) {
   Vec3 share;
   for (int d = 0; d < 3; ++d) {
     double sum = 0;
-    for_each_mirror_row(plate, layout, box, [&](std::ptrdiff_t ghost, std::ptrdiff_t mirror, int n) {
-      for (int x = 0; x < n; ++x) {
-        sum += force[d][ghost + x];
-        force[d][mirror + x] -= force[d][ghost + x];
-        force[d][ghost + x] = 0;
-      }
-    });
+    for_each_mirror_row(plate, layout, box,
+                        [&](std::ptrdiff_t ghost, std::ptrdiff_t mirror, int n) {
+                          for (int x = 0; x < n; ++x) {
+                            sum += force[d][ghost + x];
+                            force[d][mirror + x] -= force[d][ghost + x];
+                            force[d][ghost + x] = 0;
+                          }
+                        });
     share[static_cast<std::size_t>(d)] = 2 * sum;
   }
   return share;

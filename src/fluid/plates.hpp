@@ -4,9 +4,9 @@
 #include "base/vec3.hpp"
 #include "lattice/node_layout.hpp"
 
-// Plates: half-way bounce-back on the ghost layer beyond a face of the block (Ladd, J. Fluid Mech. 271:285, 1994),
-// and the mirror rule by which interpolation and spreading see a plate. A plate lies half-way between the first
-// node and its ghost.
+// Plates: half-way bounce-back on the ghost layer beyond a face of the block (Ladd, J. Fluid Mech.
+// 271:285, 1994), and the mirror rule by which interpolation and spreading see a plate. A plate
+// lies half-way between the first node and its ghost.
 
 namespace hemomag::fluid {
 
@@ -19,27 +19,30 @@ struct Plate {
   Vec3 velocity;  ///< lattice units
 };
 
-using Populations = std::array<double*, 19>;   ///< at node (0, 0, 0)
-using NodeVector = std::array<double*, 3>;     ///< at node (0, 0, 0)
+using Populations = std::array<double*, 19>;  ///< at node (0, 0, 0)
+using NodeVector = std::array<double*, 3>;    ///< at node (0, 0, 0)
 using ConstNodeVector = std::array<const double*, 3>;
 
-/// Before a shift pass: put into the plate's ghost nodes what half-way bounce-back returns to the fluid,
-/// f_i(x, t+1) = f_opp(i)*(x, t) + 6 w_i e_i . u_w (rho_w = 1).
+/// Before a shift pass: put into the plate's ghost nodes what half-way bounce-back returns to the
+/// fluid, f_i(x, t+1) = f_opp(i)*(x, t) + 6 w_i e_i . u_w (rho_w = 1).
 /// @return momentum given to the plate in this step
-Vec3 bounce_before_shift(const Plate& plate, const Populations& f, const lattice::NodeLayout& layout);
+Vec3 bounce_before_shift(const Plate& plate, const Populations& f,
+                         const lattice::NodeLayout& layout);
 
 /// After a shift pass: turn the populations that were written into the plate's ghosts back.
 /// @return momentum given to the plate in this step
-Vec3 bounce_after_shift(const Plate& plate, const Populations& f, const lattice::NodeLayout& layout);
+Vec3 bounce_after_shift(const Plate& plate, const Populations& f,
+                        const lattice::NodeLayout& layout);
 
-/// Ghost velocities u(ghost) = 2 u_wall - u(mirror node), exact for linear flow, in `box` (the block's nodes and
-/// halo along the two other axes; its extent along the plate's axis is ignored).
-void fill_mirror_velocity(const Plate& plate, const NodeVector& u, const lattice::NodeLayout& layout,
-                          const lattice::NodeBox& box);
+/// Ghost velocities u(ghost) = 2 u_wall - u(mirror node), exact for linear flow, in `box` (the
+/// block's nodes and halo along the two other axes; its extent along the plate's axis is ignored).
+void fill_mirror_velocity(const Plate& plate, const NodeVector& u,
+                          const lattice::NodeLayout& layout, const lattice::NodeBox& box);
 
-/// The adjoint for forces: the mirror node takes the ghost's force with the opposite sign, ghosts are emptied.
+/// The adjoint for forces: the mirror node takes the ghost's force with the opposite sign, ghosts
+/// are emptied.
 /// @return the plate's share, so that force on nodes + share = force spread
-Vec3 fold_mirror_force(const Plate& plate, const NodeVector& force, const lattice::NodeLayout& layout,
-                       const lattice::NodeBox& box);
+Vec3 fold_mirror_force(const Plate& plate, const NodeVector& force,
+                       const lattice::NodeLayout& layout, const lattice::NodeBox& box);
 
 }  // namespace hemomag::fluid

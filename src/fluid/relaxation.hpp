@@ -4,9 +4,10 @@ namespace hemomag::fluid {
 
 /// What one collision needs to know, in lattice units (dx = dt = 1).
 struct Relaxation {
-  double tau;           ///< relaxation time of the even moments, nu = (tau - 1/2)/3     > 1/2
-  double magic;         ///< Lambda = (tau - 1/2)(tau_minus - 1/2); 3/16 puts half-way walls exactly there   > 0
-  double force[3] = {}; ///< uniform body force density
+  double tau;    ///< relaxation time of the even moments, nu = (tau - 1/2)/3     > 1/2
+  double magic;  ///< Lambda = (tau - 1/2)(tau_minus - 1/2); 3/16 puts half-way walls exactly there
+                 ///< > 0
+  double force[3] = {};  ///< uniform body force density
 
   double viscosity() const { return (tau - 0.5) / 3.0; }
   double omega_plus() const { return 1.0 / tau; }

@@ -4,9 +4,10 @@
 
 #include "base/error.hpp"
 
-// Smoothed one-dimensional delta functions of the immersed boundary method; the three-dimensional one is their
-// product (Eq. 30). A point at x touches the four nodes first .. first + 3 with first = floor(x - 1/2) - 1, and
-// r = x - 1/2 - floor(x - 1/2) in [0, 1) is its distance from the second of them.
+// Smoothed one-dimensional delta functions of the immersed boundary method; the three-dimensional
+// one is their product (Eq. 30). A point at x touches the four nodes first .. first + 3 with first
+// = floor(x - 1/2) - 1, and r = x - 1/2 - floor(x - 1/2) in [0, 1) is its distance from the second
+// of them.
 
 namespace hemomag::ibm {
 
@@ -22,16 +23,17 @@ inline DeltaKernel delta_kernel(std::string_view name) {
   throw Error("kernel = " + std::string(name) + " is unknown; accepted: cosine4, peskin4");
 }
 
-/// Hydrodynamic radius of a point coupled by the kernel, in node spacings, with TRT at Lambda = 3/16: the mobility
-/// of a driven point is 1/(6 pi mu R) more than its bare one (Ahlrichs & Duenweg, J. Chem. Phys. 111:8225, 1999).
-/// Measured over offsets in periodic boxes; independent of tau. Both four-point kernels have the same.
+/// Hydrodynamic radius of a point coupled by the kernel, in node spacings, with TRT at Lambda =
+/// 3/16: the mobility of a driven point is 1/(6 pi mu R) more than its bare one (Ahlrichs &
+/// Duenweg, J. Chem. Phys. 111:8225, 1999). Measured over offsets in periodic boxes; independent of
+/// tau. Both four-point kernels have the same.
 constexpr double hydrodynamic_radius(DeltaKernel) { return 1.356; }
 
 /// Nodes beyond a point's own that a kernel reaches.
 inline constexpr int kernel_reach = 2;
 
-/// Sine and cosine of pi r/2 for r in [0, 1], by the half angle and Taylor series that are exact to rounding on
-/// [0, pi/4]; free of calls, so that loops over it vectorise.
+/// Sine and cosine of pi r/2 for r in [0, 1], by the half angle and Taylor series that are exact to
+/// rounding on [0, pi/4]; free of calls, so that loops over it vectorise.
 [[gnu::always_inline]] inline void quarter_wave(double r, double& sine, double& cosine) {
   const double t = r * 0.78539816339744830962;  // pi r / 4
   const double q = t * t;
@@ -40,21 +42,21 @@ inline constexpr int kernel_reach = 2;
                     q * (1.0 / 120 +
                          q * (-1.0 / 5040 +
                               q * (1.0 / 362880 +
-                                   q * (-1.0 / 39916800 +
-                                        q * (1.0 / 6227020800.0 - q * (1.0 / 1307674368000.0))))))));
+                                   q * (-1.0 / 39916800 + q * (1.0 / 6227020800.0 -
+                                                               q * (1.0 / 1307674368000.0))))))));
   const double c =
       1 + q * (-1.0 / 2 +
                q * (1.0 / 24 +
-                    q * (-1.0 / 720 +
-                         q * (1.0 / 40320 +
-                              q * (-1.0 / 3628800 +
-                                   q * (1.0 / 479001600.0 - q * (1.0 / 87178291200.0)))))));
+                    q * (-1.0 / 720 + q * (1.0 / 40320 + q * (-1.0 / 3628800 +
+                                                              q * (1.0 / 479001600.0 -
+                                                                   q * (1.0 / 87178291200.0)))))));
   sine = 2 * s * c;
   cosine = 1 - 2 * s * s;
 }
 
 /// Weights of the four nodes. They sum to one.
-[[gnu::always_inline]] inline void kernel_weights(DeltaKernel kernel, double r, double (&weight)[4]) {
+[[gnu::always_inline]] inline void kernel_weights(DeltaKernel kernel, double r,
+                                                  double (&weight)[4]) {
   if (kernel == DeltaKernel::cosine4) {
     double s, c;
     quarter_wave(r, s, c);

@@ -6,8 +6,8 @@ namespace hemomag::ibm {
 namespace {
 
 template <class T>
-TransferArgs arguments(DeltaKernel kernel, const NodeVectorView<T>& nodes, std::span<const Vec3> x_v,
-                       const Selection& selection) {
+TransferArgs arguments(DeltaKernel kernel, const NodeVectorView<T>& nodes,
+                       std::span<const Vec3> x_v, const Selection& selection) {
   TransferArgs a{};
   a.kernel = static_cast<int>(kernel);
   a.row = nodes.layout.row;
@@ -29,26 +29,33 @@ TransferArgs arguments(DeltaKernel kernel, const NodeVectorView<T>& nodes, std::
 }  // namespace
 
 std::ptrdiff_t interpolate(DeltaKernel kernel, const NodeVectorView<const double>& u,
-                           std::span<const Vec3> x_v, const Selection& selection, std::span<Vec3> u_v,
-                           SimdLevel level) {
+                           std::span<const Vec3> x_v, const Selection& selection,
+                           std::span<Vec3> u_v, SimdLevel level) {
   TransferArgs a = arguments(kernel, u, x_v, selection);
   a.value = u_v.empty() ? nullptr : &u_v[0].x;
   switch (level) {
-    case SimdLevel::sse2: return sse2::interpolate(a);
-    case SimdLevel::avx2: return avx2::interpolate(a);
-    case SimdLevel::avx512: return avx512::interpolate(a);
+  case SimdLevel::sse2:
+    return sse2::interpolate(a);
+  case SimdLevel::avx2:
+    return avx2::interpolate(a);
+  case SimdLevel::avx512:
+    return avx512::interpolate(a);
   }
   return -1;
 }
 
-std::ptrdiff_t spread(DeltaKernel kernel, const NodeVectorView<double>& force, std::span<const Vec3> x_v,
-                      const Selection& selection, std::span<const Vec3> f_v, SimdLevel level) {
+std::ptrdiff_t spread(DeltaKernel kernel, const NodeVectorView<double>& force,
+                      std::span<const Vec3> x_v, const Selection& selection,
+                      std::span<const Vec3> f_v, SimdLevel level) {
   TransferArgs a = arguments(kernel, force, x_v, selection);
   a.value = f_v.empty() ? nullptr : const_cast<double*>(&f_v[0].x);
   switch (level) {
-    case SimdLevel::sse2: return sse2::spread(a);
-    case SimdLevel::avx2: return avx2::spread(a);
-    case SimdLevel::avx512: return avx512::spread(a);
+  case SimdLevel::sse2:
+    return sse2::spread(a);
+  case SimdLevel::avx2:
+    return avx2::spread(a);
+  case SimdLevel::avx512:
+    return avx512::spread(a);
   }
   return -1;
 }

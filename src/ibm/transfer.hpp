@@ -20,9 +20,8 @@ struct Selection {
 };
 
 /// A vector field on the nodes of a block with its halo, and where the block lies.
-template <class T>
-struct NodeVectorView {
-  std::array<T*, 3> at;         ///< component arrays, at node (0, 0, 0)
+template <class T> struct NodeVectorView {
+  std::array<T*, 3> at;  ///< component arrays, at node (0, 0, 0)
   lattice::NodeLayout layout;
   std::array<double, 3> begin;  ///< global index of node (0, 0, 0)
 };
@@ -33,12 +32,14 @@ struct NodeVectorView {
 /// Cost: 64 nodes a point.
 /// @return the index of the first point whose kernel leaves the halo, or -1; that point is skipped
 std::ptrdiff_t interpolate(DeltaKernel kernel, const NodeVectorView<const double>& u,
-                           std::span<const Vec3> x_v, const Selection& selection, std::span<Vec3> u_v,
-                           SimdLevel level);
+                           std::span<const Vec3> x_v, const Selection& selection,
+                           std::span<Vec3> u_v, SimdLevel level);
 
-/// f_n += sum_v f_v delta(x_n - x_v) (Eqs. 29, 36), the adjoint of interpolate: conserves the total force to
-/// round-off, halo included; the caller sums halos. Points are taken in order, so the result is reproducible.
-std::ptrdiff_t spread(DeltaKernel kernel, const NodeVectorView<double>& force, std::span<const Vec3> x_v,
-                      const Selection& selection, std::span<const Vec3> f_v, SimdLevel level);
+/// f_n += sum_v f_v delta(x_n - x_v) (Eqs. 29, 36), the adjoint of interpolate: conserves the total
+/// force to round-off, halo included; the caller sums halos. Points are taken in order, so the
+/// result is reproducible.
+std::ptrdiff_t spread(DeltaKernel kernel, const NodeVectorView<double>& force,
+                      std::span<const Vec3> x_v, const Selection& selection,
+                      std::span<const Vec3> f_v, SimdLevel level);
 
 }  // namespace hemomag::ibm

@@ -58,7 +58,8 @@ template <DeltaKernel kernel>
 }
 
 template <DeltaKernel kernel>
-[[gnu::always_inline]] inline void scatter(const TransferArgs& a, const Stencil& s, const double* f) {
+[[gnu::always_inline]] inline void scatter(const TransferArgs& a, const Stencil& s,
+                                           const double* f) {
   const Four fx = s.wx * f[0], fy = s.wx * f[1], fz = s.wx * f[2];
 #pragma GCC unroll 4
   for (int k = 0; k < 4; ++k)

@@ -6,13 +6,13 @@
 namespace hemomag::ibm {
 
 struct TransferArgs {
-  int kernel;                      ///< DeltaKernel
-  double* node[3];                 ///< at node (0, 0, 0); only read by interpolate
+  int kernel;       ///< DeltaKernel
+  double* node[3];  ///< at node (0, 0, 0); only read by interpolate
   std::ptrdiff_t row, plane;
   double begin[3];
-  int lowest, highest[3];          ///< first and last node index that exists, halo included
-  const double* x;                 ///< [n][3]
-  double* value;                   ///< [n][3]: velocity out or force in
+  int lowest, highest[3];  ///< first and last node index that exists, halo included
+  const double* x;         ///< [n][3]
+  double* value;           ///< [n][3]: velocity out or force in
   const int* mask;
   int bits, without;
   std::ptrdiff_t n;

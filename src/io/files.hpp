@@ -6,19 +6,21 @@
 
 namespace hemomag::io {
 
-/// Replace a text file as a whole: written beside it, synced, renamed. @throws Error with path and reason
+/// Replace a text file as a whole: written beside it, synced, renamed. @throws Error with path and
+/// reason
 void replace_file(const std::string& path, const std::string& text);
 
 /// Make a directory; an existing one is fine. @throws Error with path and reason
 void make_directory(const std::string& path);
 
-/// Rows of numbers under a header, each on disk as soon as it is written. @throws Error with path and reason
+/// Rows of numbers under a header, each on disk as soon as it is written. @throws Error with path
+/// and reason
 class CsvFile {
- public:
+public:
   CsvFile(const std::string& path, const std::string& header);
   void row(const std::vector<double>& values);
 
- private:
+private:
   struct Close {
     void operator()(std::FILE* f) const { std::fclose(f); }
   };
@@ -28,11 +30,11 @@ class CsvFile {
 
 /// A `.series` index, by which ParaView knows the time of each file.
 class SeriesIndex {
- public:
+public:
   explicit SeriesIndex(std::string path) : path_(std::move(path)) {}
   void add(const std::string& name, double time_s);
 
- private:
+private:
   std::string path_;
   std::vector<std::pair<std::string, double>> entries_;
 };

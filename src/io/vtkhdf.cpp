@@ -11,7 +11,7 @@ namespace {
 
 /// An HDF5 handle that closes itself.
 class Handle {
- public:
+public:
   Handle(hid_t id, herr_t (*close)(hid_t), const std::string& what) : id_(id), close_(close) {
     if (id < 0) throw Error(what + ": HDF5 could not create or open it");
   }
@@ -20,7 +20,7 @@ class Handle {
   Handle& operator=(const Handle&) = delete;
   operator hid_t() const { return id_; }
 
- private:
+private:
   hid_t id_;
   herr_t (*close_)(hid_t);
 };
@@ -31,9 +31,10 @@ void check(herr_t status, const std::string& what) {
 
 /// The file being written and the few things VTKHDF needs of HDF5.
 class File {
- public:
+public:
   File(MPI_Comm comm, const std::string& path, const char* type)
-      : path_(path), access_(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, path), transfer_(H5Pcreate(H5P_DATASET_XFER), H5Pclose, path),
+      : path_(path), access_(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, path),
+        transfer_(H5Pcreate(H5P_DATASET_XFER), H5Pclose, path),
         file_(open(comm, path), H5Fclose, path),
         root_(H5Gcreate2(file_, "VTKHDF", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, path) {
     H5Pset_dxpl_mpio(transfer_, H5FD_MPIO_COLLECTIVE);
@@ -43,7 +44,8 @@ class File {
     H5Tset_size(string, text.size());
     H5Tset_strpad(string, H5T_STR_NULLPAD);
     const Handle scalar(H5Screate(H5S_SCALAR), H5Sclose, path_);
-    const Handle a(H5Acreate2(root_, "Type", string, scalar, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, path_);
+    const Handle a(H5Acreate2(root_, "Type", string, scalar, H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
+                   path_);
     check(H5Awrite(a, string, text.data()), path_);
   }
 
@@ -55,16 +57,22 @@ class File {
     check(H5Awrite(a, type, values.data()), path_);
   }
 
-  void group(const char* name) { Handle(H5Gcreate2(root_, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, path_); }
+  void group(const char* name) {
+    Handle(H5Gcreate2(root_, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, path_);
+  }
 
   /// A dataset of extent `whole`, of which this rank writes the box of `count` at `start`.
-  void dataset(const std::string& name, hid_t stored, hid_t given, const std::vector<hsize_t>& whole,
-               const std::vector<hsize_t>& start, const std::vector<hsize_t>& count, const void* values) {
+  void dataset(const std::string& name, hid_t stored, hid_t given,
+               const std::vector<hsize_t>& whole, const std::vector<hsize_t>& start,
+               const std::vector<hsize_t>& count, const void* values) {
     const int rank = static_cast<int>(whole.size());
     const Handle space(H5Screate_simple(rank, whole.data(), nullptr), H5Sclose, path_);
-    const Handle data(H5Dcreate2(root_, name.c_str(), stored, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose, path_);
+    const Handle data(
+        H5Dcreate2(root_, name.c_str(), stored, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+        H5Dclose, path_);
     const Handle memory(H5Screate_simple(rank, count.data(), nullptr), H5Sclose, path_);
-    const hsize_t mine = std::accumulate(count.begin(), count.end(), hsize_t{1}, std::multiplies<>());
+    const hsize_t mine =
+        std::accumulate(count.begin(), count.end(), hsize_t{1}, std::multiplies<>());
     if (mine > 0) {
       H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr);
     } else {
@@ -74,7 +82,7 @@ class File {
     check(H5Dwrite(data, given, memory, space, transfer_, values), path_);
   }
 
- private:
+private:
   hid_t open(MPI_Comm comm, const std::string& path) {
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // our own message is enough
     H5Pset_fapl_mpio(access_, comm, MPI_INFO_NULL);
@@ -105,7 +113,8 @@ void write_array(File& file, const std::string& group, const DataArray& array, c
     start.push_back(0);
     count.push_back(static_cast<hsize_t>(array.components));
   }
-  file.dataset(group + "/" + array.name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, whole, start, count, array.values.data());
+  file.dataset(group + "/" + array.name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, whole, start, count,
+               array.values.data());
 }
 
 }  // namespace
@@ -113,8 +122,9 @@ void write_array(File& file, const std::string& group, const DataArray& array, c
 void write_image(MPI_Comm comm, const std::string& path, const lattice::Block& block, double dx,
                  const std::vector<DataArray>& arrays) {
   File file(comm, path, "ImageData");
-  file.attribute("WholeExtent", H5T_NATIVE_INT,
-                 std::array{0, block.global[0] - 1, 0, block.global[1] - 1, 0, block.global[2] - 1});
+  file.attribute(
+      "WholeExtent", H5T_NATIVE_INT,
+      std::array{0, block.global[0] - 1, 0, block.global[1] - 1, 0, block.global[2] - 1});
   file.attribute("Origin", H5T_NATIVE_DOUBLE, std::array{dx / 2, dx / 2, dx / 2});
   file.attribute("Spacing", H5T_NATIVE_DOUBLE, std::array{dx, dx, dx});
   file.attribute("Direction", H5T_NATIVE_DOUBLE, std::array{1., 0., 0., 0., 1., 0., 0., 0., 1.});
@@ -131,16 +141,19 @@ void write_image(MPI_Comm comm, const std::string& path, const lattice::Block& b
       start.push_back(0);
       count.push_back(static_cast<hsize_t>(array.components));
     }
-    file.dataset("PointData/" + array.name, H5T_IEEE_F32LE, H5T_NATIVE_DOUBLE, whole, start, count, array.values.data());
+    file.dataset("PointData/" + array.name, H5T_IEEE_F32LE, H5T_NATIVE_DOUBLE, whole, start, count,
+                 array.values.data());
   }
 }
 
 void write_grid(MPI_Comm comm, const std::string& path, Shape shape, std::span<const double> points,
-                std::span<const std::int64_t> connectivity, const std::vector<DataArray>& point_arrays,
+                std::span<const std::int64_t> connectivity,
+                const std::vector<DataArray>& point_arrays,
                 const std::vector<DataArray>& cell_arrays) {
   const std::size_t corners = shape == Shape::triangle ? 3 : 1;
   const std::size_t cells = connectivity.size() / corners;
-  const Share at_points(comm, points.size() / 3), at_cells(comm, cells), at_corners(comm, connectivity.size());
+  const Share at_points(comm, points.size() / 3), at_cells(comm, cells),
+      at_corners(comm, connectivity.size());
   // A rank without points makes no partition, except that an empty file needs one.
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
@@ -151,22 +164,25 @@ void write_grid(MPI_Comm comm, const std::string& path, Shape shape, std::span<c
   file.group("PointData");
   file.group("CellData");
   const auto count_of = [&](const char* name, std::int64_t n) {
-    file.dataset(name, H5T_STD_I64LE, H5T_NATIVE_INT64, {at_parts.all}, {at_parts.before}, {at_parts.mine}, &n);
+    file.dataset(name, H5T_STD_I64LE, H5T_NATIVE_INT64, {at_parts.all}, {at_parts.before},
+                 {at_parts.mine}, &n);
   };
   count_of("NumberOfPoints", static_cast<std::int64_t>(at_points.mine));
   count_of("NumberOfCells", static_cast<std::int64_t>(cells));
   count_of("NumberOfConnectivityIds", static_cast<std::int64_t>(connectivity.size()));
-  file.dataset("Points", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, {at_points.all, 3}, {at_points.before, 0}, {at_points.mine, 3},
-               points.data());
-  file.dataset("Connectivity", H5T_STD_I64LE, H5T_NATIVE_INT64, {at_corners.all}, {at_corners.before}, {at_corners.mine},
-               connectivity.data());
+  file.dataset("Points", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, {at_points.all, 3},
+               {at_points.before, 0}, {at_points.mine, 3}, points.data());
+  file.dataset("Connectivity", H5T_STD_I64LE, H5T_NATIVE_INT64, {at_corners.all},
+               {at_corners.before}, {at_corners.mine}, connectivity.data());
   std::vector<std::int64_t> offsets(part ? cells + 1 : 0);
-  for (std::size_t k = 0; k < offsets.size(); ++k) offsets[k] = static_cast<std::int64_t>(k * corners);
+  for (std::size_t k = 0; k < offsets.size(); ++k)
+    offsets[k] = static_cast<std::int64_t>(k * corners);
   const Share at_offsets(comm, offsets.size());
-  file.dataset("Offsets", H5T_STD_I64LE, H5T_NATIVE_INT64, {at_offsets.all}, {at_offsets.before}, {at_offsets.mine},
-               offsets.data());
+  file.dataset("Offsets", H5T_STD_I64LE, H5T_NATIVE_INT64, {at_offsets.all}, {at_offsets.before},
+               {at_offsets.mine}, offsets.data());
   const std::vector<std::uint8_t> types(cells, static_cast<std::uint8_t>(shape));
-  file.dataset("Types", H5T_STD_U8LE, H5T_NATIVE_UINT8, {at_cells.all}, {at_cells.before}, {at_cells.mine}, types.data());
+  file.dataset("Types", H5T_STD_U8LE, H5T_NATIVE_UINT8, {at_cells.all}, {at_cells.before},
+               {at_cells.mine}, types.data());
   for (const auto& array : point_arrays) write_array(file, "PointData", array, at_points);
   for (const auto& array : cell_arrays) write_array(file, "CellData", array, at_cells);
 }

@@ -9,7 +9,8 @@
 
 #include "lattice/block.hpp"
 
-// VTKHDF 1.0 files, written by all ranks together through MPI-IO. ParaView >= 5.10 and VTK >= 9.1 open them.
+// VTKHDF 1.0 files, written by all ranks together through MPI-IO. ParaView >= 5.10 and VTK >= 9.1
+// open them.
 
 namespace hemomag::io {
 
@@ -33,7 +34,8 @@ enum class Shape : std::uint8_t { vertex = 1, triangle = 5 };
 /// @param points       [n][3]
 /// @param connectivity corners of this rank's cells, indices into its own points
 void write_grid(MPI_Comm comm, const std::string& path, Shape shape, std::span<const double> points,
-                std::span<const std::int64_t> connectivity, const std::vector<DataArray>& point_arrays,
+                std::span<const std::int64_t> connectivity,
+                const std::vector<DataArray>& point_arrays,
                 const std::vector<DataArray>& cell_arrays);
 
 }  // namespace hemomag::io

@@ -36,7 +36,9 @@ void AngleHemoMembrane::allocate() {
 void AngleHemoMembrane::coeff(int narg, char** arg) {
   if (!allocated) allocate();
   if (narg != 1 + columns)
-    error->all(FLERR, std::string("angle_style hemo/membrane: a type needs Cq q k_a A_t0 k_v V_0 k_d A_k0"));
+    error->all(
+        FLERR,
+        std::string("angle_style hemo/membrane: a type needs Cq q k_a A_t0 k_v V_0 k_d A_k0"));
   int lo = 0, hi = 0;
   utils::bounds(FLERR, std::string(arg[0]), 1, atom->nangletypes, lo, hi, error);
   for (int type = lo; type <= hi; ++type) {
@@ -50,16 +52,18 @@ void AngleHemoMembrane::coeff(int narg, char** arg) {
 void AngleHemoMembrane::check(int type) const {
   const auto& c = coefficients_[type];
   if (c[Cq] != 0)
-    error->all(FLERR, "angle_style hemo/membrane: type " + std::to_string(type) +
-                          " has Cq = " + std::to_string(c[Cq]) + ", an older term that is not available; need 0");
+    error->all(FLERR, "angle_style hemo/membrane: type " + std::to_string(type) + " has Cq = " +
+                          std::to_string(c[Cq]) + ", an older term that is not available; need 0");
   if (!(c[A_t0] > 0) || !(c[V_0] > 0) || !(c[A_k0] > 0))
     error->all(FLERR, "angle_style hemo/membrane: type " + std::to_string(type) +
                           " needs A_t0, V_0 and A_k0 > 0");
 }
 
 void AngleHemoMembrane::init_style() {
-  if (domain->triclinic) error->all(FLERR, std::string("angle_style hemo/membrane needs an orthogonal box"));
-  if (!force->newton_bond) error->all(FLERR, std::string("angle_style hemo/membrane needs `newton on`"));
+  if (domain->triclinic)
+    error->all(FLERR, std::string("angle_style hemo/membrane needs an orthogonal box"));
+  if (!force->newton_bond)
+    error->all(FLERR, std::string("angle_style hemo/membrane needs `newton on`"));
   if (!oriented_) {
     const bigint turned = hemomag::lammps::orient_triangles(*lmp, setflag);
     if (turned > 0 && comm->me == 0)
@@ -76,7 +80,8 @@ void AngleHemoMembrane::rebuild() {
   const int n = neighbor->nanglelist;
   int** list = neighbor->anglelist;
   std::vector<int> ids(static_cast<std::size_t>(n));
-  for (int t = 0; t < n; ++t) ids[static_cast<std::size_t>(t)] = static_cast<int>(atom->molecule[list[t][1]]);
+  for (int t = 0; t < n; ++t)
+    ids[static_cast<std::size_t>(t)] = static_cast<int>(atom->molecule[list[t][1]]);
   std::sort(ids.begin(), ids.end());
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
 
@@ -86,8 +91,10 @@ void AngleHemoMembrane::rebuild() {
   triangles_.resize(static_cast<std::size_t>(n));
   for (int t = 0; t < n; ++t) {
     const int molecule = static_cast<int>(atom->molecule[list[t][1]]);
-    const auto cell = static_cast<std::size_t>(std::lower_bound(ids.begin(), ids.end(), molecule) - ids.begin());
-    triangles_[static_cast<std::size_t>(t)] = {list[t][0], list[t][1], list[t][2], list[t][3], cell, {}, {}};
+    const auto cell =
+        static_cast<std::size_t>(std::lower_bound(ids.begin(), ids.end(), molecule) - ids.begin());
+    triangles_[static_cast<std::size_t>(t)] = {list[t][0], list[t][1], list[t][2], list[t][3],
+                                               cell,       {},         {}};
     cell_type_[cell] = list[t][3];
   }
   // The images are agreed on with the same plan, with a width of four; the sums of a step have two.
@@ -100,9 +107,10 @@ void AngleHemoMembrane::rebuild() {
   }
 }
 
-/// The shift that puts a triangle into its cell's own image, from the image flags of its owned atom. Flags have ten bits and
-/// wrap, so that only differences within a cell mean anything: they are taken from one image that all ranks sharing
-/// the cell agree on, that of a triangle of the lowest rank.
+/// The shift that puts a triangle into its cell's own image, from the image flags of its owned
+/// atom. Flags have ten bits and wrap, so that only differences within a cell mean anything: they
+/// are taken from one image that all ranks sharing the cell agree on, that of a triangle of the
+/// lowest rank.
 void AngleHemoMembrane::agree_on_images() {
   constexpr int wrap = 1 << IMGBITS;
   const auto flag = [&](imageint image, int d) {
@@ -121,7 +129,8 @@ void AngleHemoMembrane::agree_on_images() {
   const double period[3] = {domain->xprd, domain->yprd, domain->zprd};
   for (auto& t : triangles_)
     for (int d = 0; d < 3; ++d) {
-      const int difference = flag(atom->image[t.j], d) - static_cast<int>(reference[4 * t.cell + static_cast<std::size_t>(d)]);
+      const int difference = flag(atom->image[t.j], d) -
+                             static_cast<int>(reference[4 * t.cell + static_cast<std::size_t>(d)]);
       const int images = (difference % wrap + wrap + wrap / 2) % wrap - wrap / 2;
       t.unwrap[static_cast<std::size_t>(d)] = images * period[d];
     }
@@ -134,7 +143,8 @@ void AngleHemoMembrane::sum_cells() {
   for (auto& t : triangles_) {
     t.twice_area = membrane::twice_area_vector(x[t.i], x[t.j], x[t.k]);
     sums_[2 * t.cell] += 0.5 * norm(t.twice_area);
-    // On a closed surface the sum of a point of each triangle times its area vector over three is the volume.
+    // On a closed surface the sum of a point of each triangle times its area vector over three is
+    // the volume.
     sums_[2 * t.cell + 1] += dot(x[t.j] + t.unwrap, t.twice_area) / 6;
   }
   exchange_.reduce(sums_);
@@ -154,21 +164,24 @@ void AngleHemoMembrane::compute(int eflag, int vflag) {
     const auto& k = coefficients_[t.type];
     const auto& cell = cells_[t.cell];
     const double length = norm(t.twice_area), area = 0.5 * length;
-    const double area_pull =
-        membrane::restoring(k[k_d], area, k[A_k0]) + membrane::restoring(k[k_a], cell.area, k[A_t0]);
+    const double area_pull = membrane::restoring(k[k_d], area, k[A_k0]) +
+                             membrane::restoring(k[k_a], cell.area, k[A_t0]);
     const Vec3 unit = t.twice_area / length;
     const auto A = membrane::area_forces(x[t.i], x[t.j], x[t.k], unit, area_pull);
-    const auto V = membrane::volume_forces(t.twice_area, membrane::restoring(k[k_v], cell.volume, k[V_0]));
+    const auto V =
+        membrane::volume_forces(t.twice_area, membrane::restoring(k[k_v], cell.volume, k[V_0]));
     f[t.i] += A.a + V.a;
     f[t.j] += A.b + V.b;
     f[t.k] += A.c + V.c;
     if (evflag) tally(t, unit, area_pull);
   }
-  if (vflag_global)  // volume: the forces of a closed surface have the virial -E'(V) V in every direction
+  if (vflag_global)  // volume: the forces of a closed surface have the virial -E'(V) V in every
+                     // direction
     for (std::size_t c = 0; c < cells_.size(); ++c) {
       const auto& k = coefficients_[cell_type_[c]];
       if (!cells_[c].mine) continue;
-      for (int d = 0; d < 3; ++d) virial[d] -= membrane::restoring(k[k_v], cells_[c].volume, k[V_0]) * cells_[c].volume;
+      for (int d = 0; d < 3; ++d)
+        virial[d] -= membrane::restoring(k[k_v], cells_[c].volume, k[V_0]) * cells_[c].volume;
     }
 }
 
@@ -179,11 +192,12 @@ void AngleHemoMembrane::tally(const Triangle& t, const Vec3& unit, double area_p
   const auto& cell = cells_[t.cell];
   const double whole = membrane::quadratic(k[k_a], cell.area, k[A_t0]) +
                        membrane::quadratic(k[k_v], cell.volume, k[V_0]);
-  const double energy_here = membrane::quadratic(k[k_d], 0.5 * norm(t.twice_area), k[A_k0]) + whole * k[A_k0] / k[A_t0];
+  const double energy_here =
+      membrane::quadratic(k[k_d], 0.5 * norm(t.twice_area), k[A_k0]) + whole * k[A_k0] / k[A_t0];
   auto A = membrane::area_forces(x[t.i], x[t.j], x[t.k], unit, area_pull);
   const Vec3 d1 = x[t.i] - x[t.j], d2 = x[t.k] - x[t.j];
-  ev_tally(t.i, t.j, t.k, atom->nlocal, force->newton_bond, energy_here, &A.a.x, &A.c.x, d1.x, d1.y, d1.z, d2.x,
-           d2.y, d2.z);
+  ev_tally(t.i, t.j, t.k, atom->nlocal, force->newton_bond, energy_here, &A.a.x, &A.c.x, d1.x, d1.y,
+           d1.z, d2.x, d2.y, d2.z);
 }
 
 AngleHemoMembrane::Surface AngleHemoMembrane::surface() const {

@@ -22,7 +22,7 @@ namespace LAMMPS_NS {
 /// `angle_style hemo/membrane`: local and global area and volume of cells, one angle a triangle
 /// (docs/styles/angle_hemo_membrane.md).
 class AngleHemoMembrane : public Angle {
- public:
+public:
   /// A whole cell, as every rank that holds a part of it knows it after a force computation.
   struct CellState {
     tagint molecule;
@@ -45,19 +45,20 @@ class AngleHemoMembrane : public Angle {
 
   std::span<const CellState> cells() const { return cells_; }
 
-  /// This rank's triangles at the present positions, each cell in one piece, and the molecule each belongs to.
+  /// This rank's triangles at the present positions, each cell in one piece, and the molecule each
+  /// belongs to.
   struct Surface {
     std::vector<hemomag::analysis::SurfaceTriangle> triangles;
     std::vector<tagint> molecule;
   };
   Surface surface() const;
 
- private:
+private:
   enum Column { Cq, q, k_a, A_t0, k_v, V_0, k_d, A_k0, columns };
   struct Triangle {
     int i, j, k, type;
-    std::size_t cell;       // slot in cells_
-    hemomag::Vec3 unwrap;   // from x[j] to the cell's own image
+    std::size_t cell;      // slot in cells_
+    hemomag::Vec3 unwrap;  // from x[j] to the cell's own image
     hemomag::Vec3 twice_area;
   };
 
@@ -71,8 +72,8 @@ class AngleHemoMembrane : public Angle {
   hemomag::lammps::Coefficients<columns> coefficients_;
   std::vector<Triangle> triangles_;
   std::vector<CellState> cells_;
-  std::vector<int> cell_type_;   // a triangle type of each cell, for its global constants
-  std::vector<double> sums_;     // area and volume of each cell
+  std::vector<int> cell_type_;  // a triangle type of each cell, for its global constants
+  std::vector<double> sums_;    // area and volume of each cell
   hemomag::solver::CellSums exchange_;
   bool oriented_ = false;
   bool stale_ = true;

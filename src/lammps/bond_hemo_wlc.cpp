@@ -35,7 +35,8 @@ void BondHemoWLC::allocate() {
 void BondHemoWLC::coeff(int narg, char** arg) {
   if (!allocated) allocate();
   if (narg != 1 + columns)
-    error->all(FLERR, std::string("bond_style hemo/wlc: a type needs kBT x0 l_max mu0 m gammaC gammaT"));
+    error->all(FLERR,
+               std::string("bond_style hemo/wlc: a type needs kBT x0 l_max mu0 m gammaC gammaT"));
   int lo = 0, hi = 0;
   utils::bounds(FLERR, std::string(arg[0]), 1, atom->nbondtypes, lo, hi, error);
   for (int type = lo; type <= hi; ++type) {
@@ -70,17 +71,19 @@ void BondHemoWLC::compute(int eflag, int vflag) {
     f[i] += pull * d;
     f[j] -= pull * d;
     if (evflag)
-      ev_tally(i, j, atom->nlocal, force->newton_bond, eflag ? hemomag::membrane::energy(spring, l) : 0.0, pull,
-               d.x, d.y, d.z);
+      ev_tally(i, j, atom->nlocal, force->newton_bond,
+               eflag ? hemomag::membrane::energy(spring, l) : 0.0, pull, d.x, d.y, d.z);
   }
 }
 
 void BondHemoWLC::overstretched(int i, int j, double length, double limit) const {
-  hemomag::lammps::fail_here(lmp, FLERR, "bond_style hemo/wlc: step " + std::to_string(update->ntimestep) + ", rank " +
-                        std::to_string(comm->me) + ": the edge between atoms " + std::to_string(atom->tag[i]) +
-                        " and " + std::to_string(atom->tag[j]) + " is " + std::to_string(length) +
-                        " long, its limit is " + std::to_string(limit) +
-                        " (forces too strong, or the time step too long)");
+  hemomag::lammps::fail_here(
+      lmp, FLERR,
+      "bond_style hemo/wlc: step " + std::to_string(update->ntimestep) + ", rank " +
+          std::to_string(comm->me) + ": the edge between atoms " + std::to_string(atom->tag[i]) +
+          " and " + std::to_string(atom->tag[j]) + " is " + std::to_string(length) +
+          " long, its limit is " + std::to_string(limit) +
+          " (forces too strong, or the time step too long)");
 }
 
 double BondHemoWLC::equilibrium_distance(int type) {

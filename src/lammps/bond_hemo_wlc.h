@@ -18,7 +18,7 @@ namespace LAMMPS_NS {
 
 /// `bond_style hemo/wlc`: in-plane springs of a membrane (docs/styles/bond_hemo_wlc.md).
 class BondHemoWLC : public Bond {
- public:
+public:
   explicit BondHemoWLC(LAMMPS*);
   ~BondHemoWLC() override;
   void compute(int, int) override;
@@ -29,7 +29,7 @@ class BondHemoWLC : public Bond {
   void write_data(FILE*) override;
   double single(int, double, int, int, double&) override;
 
- private:
+private:
   enum Column { kBT, x0, l_max, mu0, exponent, gamma_c, gamma_t, columns };
   void allocate();
   void derive(int type);

@@ -13,7 +13,8 @@
 using namespace LAMMPS_NS;
 namespace analysis = hemomag::analysis;
 
-ComputeHemoMargination::ComputeHemoMargination(LAMMPS* lmp, int narg, char** arg) : Compute(lmp, narg, arg) {
+ComputeHemoMargination::ComputeHemoMargination(LAMMPS* lmp, int narg, char** arg)
+    : Compute(lmp, narg, arg) {
   vector_flag = 1;
   size_vector = 3;
   extvector = 0;
@@ -25,9 +26,11 @@ ComputeHemoMargination::ComputeHemoMargination(LAMMPS* lmp, int narg, char** arg
     else if (key == "walls" && (value == "lower" || value == "both"))
       walls_ = value == "lower" ? analysis::LayerWalls::lower : analysis::LayerWalls::both;
     else
-      error->all(FLERR, "compute hemo/margination: " + key + " " + value + "; accepted: layer L, walls lower|both");
+      error->all(FLERR, "compute hemo/margination: " + key + " " + value +
+                            "; accepted: layer L, walls lower|both");
   }
-  if (!(layer_ > 0)) error->all(FLERR, std::string("compute hemo/margination needs layer L with L > 0"));
+  if (!(layer_ > 0))
+    error->all(FLERR, std::string("compute hemo/margination needs layer L with L > 0"));
 }
 
 ComputeHemoMargination::~ComputeHemoMargination() { delete[] vector; }
@@ -72,7 +75,8 @@ void ComputeHemoMargination::compute_vector() {
   invoked_vector = update->ntimestep;
   const auto z = heights();
   const double height = domain->boxhi[2] - domain->boxlo[2];
-  long mine[2] = {analysis::in_layer(z, layer_, height, walls_), static_cast<long>(z.size())}, all[2];
+  long mine[2] = {analysis::in_layer(z, layer_, height, walls_), static_cast<long>(z.size())},
+       all[2];
   MPI_Allreduce(mine, all, 2, MPI_LONG, MPI_SUM, world);
   if (at_start_ < 0) at_start_ = all[0];
   vector[0] = static_cast<double>(all[0]);

@@ -15,15 +15,16 @@ ComputeStyle(hemo/margination,ComputeHemoMargination)
 
 namespace LAMMPS_NS {
 
-/// `compute hemo/margination`: carriers in the cell-free layer, Eq. 46 (docs/styles/compute_hemo_margination.md).
+/// `compute hemo/margination`: carriers in the cell-free layer, Eq. 46
+/// (docs/styles/compute_hemo_margination.md).
 class ComputeHemoMargination : public Compute {
- public:
+public:
   ComputeHemoMargination(LAMMPS*, int, char**);
   ~ComputeHemoMargination() override;
   void init() override {}
   void compute_vector() override;
 
- private:
+private:
   std::vector<double> heights() const;
 
   double layer_ = 0;

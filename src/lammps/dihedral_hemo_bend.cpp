@@ -47,7 +47,8 @@ void DihedralHemoBend::derive(int type) {
   if (!(std::fabs(theta) < std::numbers::pi) || coefficients_[type][k_b] < 0)
     error->all(FLERR, "dihedral_style hemo/bend: type " + std::to_string(type) +
                           " needs k_b >= 0 and theta_0 between -180 and 180 degrees");
-  bending_[static_cast<std::size_t>(type)] = {coefficients_[type][k_b], std::sin(theta), std::cos(theta)};
+  bending_[static_cast<std::size_t>(type)] = {coefficients_[type][k_b], std::sin(theta),
+                                              std::cos(theta)};
   setflag[type] = 1;
 }
 
@@ -68,8 +69,8 @@ void DihedralHemoBend::compute(int eflag, int vflag) {
     if (evflag) {
       const Vec3 b1 = x[i1] - x[i2], b2 = x[i3] - x[i2], b3 = x[i4] - x[i3];
       ev_tally(i1, i2, i3, i4, atom->nlocal, force->newton_bond,
-               eflag ? hemomag::membrane::energy(bending, hinge.theta) : 0.0, &F.f1.x, &F.f3.x, &F.f4.x, b1.x,
-               b1.y, b1.z, b2.x, b2.y, b2.z, b3.x, b3.y, b3.z);
+               eflag ? hemomag::membrane::energy(bending, hinge.theta) : 0.0, &F.f1.x, &F.f3.x,
+               &F.f4.x, b1.x, b1.y, b1.z, b2.x, b2.y, b2.z, b3.x, b3.y, b3.z);
     }
   }
 }

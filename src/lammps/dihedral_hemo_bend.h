@@ -16,9 +16,10 @@ DihedralStyle(hemo/bend,DihedralHemoBend)
 
 namespace LAMMPS_NS {
 
-/// `dihedral_style hemo/bend`: bending at the hinges of a membrane (docs/styles/dihedral_hemo_bend.md).
+/// `dihedral_style hemo/bend`: bending at the hinges of a membrane
+/// (docs/styles/dihedral_hemo_bend.md).
 class DihedralHemoBend : public Dihedral {
- public:
+public:
   explicit DihedralHemoBend(LAMMPS*);
   ~DihedralHemoBend() override;
   void compute(int, int) override;
@@ -27,7 +28,7 @@ class DihedralHemoBend : public Dihedral {
   void read_restart(FILE*) override;
   void write_data(FILE*) override;
 
- private:
+private:
   enum Column { k_b, theta_0, columns };
   void allocate();
   void derive(int type);

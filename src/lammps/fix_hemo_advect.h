@@ -15,13 +15,13 @@ class FixHemoFluid;
 
 /// `fix hemo/advect`: membrane vertices move with the fluid (docs/styles/fix_hemo_advect.md).
 class FixHemoAdvect : public Fix {
- public:
+public:
   FixHemoAdvect(LAMMPS*, int, char**);
   int setmask() override;
   void init() override;
   void initial_integrate(int) override;
 
- private:
+private:
   FixHemoFluid* fluid_ = nullptr;
 };
 

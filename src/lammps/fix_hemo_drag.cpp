@@ -35,7 +35,9 @@ FixHemoDrag::FixHemoDrag(LAMMPS* lmp, int narg, char** arg)
       const int type = utils::inumeric(FLERR, arg[at++], false, lmp);
       const double a = utils::numeric(FLERR, arg[at++], false, lmp);
       if (type < 1 || type > atom->ntypes || a <= 0)
-        error->all(FLERR, std::string("fix hemo/drag: radius TYPE A needs an atom type of the system and A > 0"));
+        error->all(
+            FLERR,
+            std::string("fix hemo/drag: radius TYPE A needs an atom type of the system and A > 0"));
       radius_[static_cast<std::size_t>(type)] = a;
     } else if (key == "feedback" && at < narg) {
       const std::string word = arg[at++];
@@ -43,8 +45,9 @@ FixHemoDrag::FixHemoDrag(LAMMPS* lmp, int narg, char** arg)
         error->all(FLERR, "fix hemo/drag: feedback " + word + "; accepted: yes, no");
       feedback_ = word == "yes";
     } else {
-      error->all(FLERR, "fix hemo/drag: " + key + " is unknown or lacks values; accepted: radius TYPE A, "
-                                                  "feedback yes|no");
+      error->all(FLERR, "fix hemo/drag: " + key +
+                            " is unknown or lacks values; accepted: radius TYPE A, "
+                            "feedback yes|no");
     }
   }
   FixHemoDrag::grow_arrays(atom->nmax);
@@ -56,7 +59,6 @@ FixHemoDrag::~FixHemoDrag() {
   atom->delete_callback(id, Atom::GROW);
   memory->destroy(mean_stiff_);
   memory->destroy(stiff_);
-
 }
 
 int FixHemoDrag::setmask() { return FixConst::INITIAL_INTEGRATE | FixConst::POST_FORCE; }
@@ -73,27 +75,31 @@ void FixHemoDrag::init() {
       without_radius = atom->type[i];
   int any = 0;
   MPI_Allreduce(&without_radius, &any, 1, MPI_INT, MPI_MAX, world);
-  if (any) error->all(FLERR, "fix hemo/drag: atoms of type " + std::to_string(any) + " have no radius");
+  if (any)
+    error->all(FLERR, "fix hemo/drag: atoms of type " + std::to_string(any) + " have no radius");
   chosen_at_ = -1;
 }
 
-/// Friction of the point particle. A point coupled by a kernel already moves with the mobility 1/(6 pi mu R) of the
-/// kernel's own radius R, so that 1/Gamma_bare = 1/(6 pi mu a) - 1/(6 pi mu R) makes the whole that of a sphere
-/// of radius a. Without feedback there is no such share and Gamma_bare = 6 pi mu a.
-/// Differs from the paper, which puts 6 pi mu a into the coupled scheme: mobility too high by a/R.
+/// Friction of the point particle. A point coupled by a kernel already moves with the mobility 1/(6
+/// pi mu R) of the kernel's own radius R, so that 1/Gamma_bare = 1/(6 pi mu a) - 1/(6 pi mu R)
+/// makes the whole that of a sphere of radius a. Without feedback there is no such share and
+/// Gamma_bare = 6 pi mu a. Differs from the paper, which puts 6 pi mu a into the coupled scheme:
+/// mobility too high by a/R.
 double FixHemoDrag::bare_friction(double a) const {
   const double stokes = 6 * std::numbers::pi * fluid_->viscosity() * a;
   if (!feedback_) return stokes;
   const double R = fluid_->point_radius();
   if (a >= R)
     error->all(FLERR, "fix hemo/drag: a carrier of radius " + std::to_string(a) +
-                          " nodes is larger than the kernel's hydrodynamic radius " + std::to_string(R) +
+                          " nodes is larger than the kernel's hydrodynamic radius " +
+                          std::to_string(R) +
                           "; its friction cannot be corrected (use a larger dx)");
   return stokes / (1 - a / R);
 }
 
-/// n_sub = ceil(2 k dt/Gamma): the stiffest mode of a chain of contacts has 4 k/Gamma, an explicit step is stable
-/// below 2 of it. Chosen anew for every neighbour list, since moments grow as carriers approach a magnet.
+/// n_sub = ceil(2 k dt/Gamma): the stiffest mode of a chain of contacts has 4 k/Gamma, an explicit
+/// step is stable below 2 of it. Chosen anew for every neighbour list, since moments grow as
+/// carriers approach a magnet.
 void FixHemoDrag::choose_substeps() {
   if (!dipoles_ || chosen_at_ == neighbor->lastcall) return;
   chosen_at_ = neighbor->lastcall;
@@ -101,8 +107,9 @@ void FixHemoDrag::choose_substeps() {
   const double needed = std::ceil(2 * dipoles_->max_stiffness() * softest);
   if (!(needed <= most_substeps))
     error->all(FLERR, "fix hemo/drag: step " + std::to_string(update->ntimestep) +
-                          ": the contact forces need " + std::to_string(needed) + " sub-steps, more than " +
-                          std::to_string(most_substeps) + " (field too strong, or dt too long)");
+                          ": the contact forces need " + std::to_string(needed) +
+                          " sub-steps, more than " + std::to_string(most_substeps) +
+                          " (field too strong, or dt too long)");
   substeps_ = std::max(1, static_cast<int>(needed));
 }
 
@@ -124,8 +131,9 @@ void FixHemoDrag::setup(int vflag) {
   post_force(vflag);
 }
 
-/// u_b = u_f + F/Gamma_bare (Eqs. 33, 35 without inertia), the stiff part of F renewed n_sub times a step.
-/// Differs from the paper: explicit Verlet with m du/dt = -Gamma (u_b - u_f) + F is unstable at its parameters.
+/// u_b = u_f + F/Gamma_bare (Eqs. 33, 35 without inertia), the stiff part of F renewed n_sub times
+/// a step. Differs from the paper: explicit Verlet with m du/dt = -Gamma (u_b - u_f) + F is
+/// unstable at its parameters.
 void FixHemoDrag::initial_integrate(int) {
   fluid_->velocity_at_atoms(groupbit, atom->v);
   choose_substeps();
@@ -189,7 +197,8 @@ int FixHemoDrag::unpack_exchange(int i, double* buffer) {
 
 // Only carriers travel: among the ghosts they are few.
 int FixHemoDrag::pack_forward_comm(int n, int* list, double* buffer, int pbc_flag, int* pbc) {
-  const double shift[3] = {pbc_flag ? pbc[0] * domain->xprd : 0.0, pbc_flag ? pbc[1] * domain->yprd : 0.0,
+  const double shift[3] = {pbc_flag ? pbc[0] * domain->xprd : 0.0,
+                           pbc_flag ? pbc[1] * domain->yprd : 0.0,
                            pbc_flag ? pbc[2] * domain->zprd : 0.0};
   int m = 0;
   for (int k = 0; k < n; ++k)

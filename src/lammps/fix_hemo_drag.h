@@ -19,7 +19,7 @@ class PairHemoDipole;
 /// `fix hemo/drag`: carriers, overdamped, with the stiff forces between them sub-stepped
 /// (docs/styles/fix_hemo_drag.md).
 class FixHemoDrag : public Fix {
- public:
+public:
   FixHemoDrag(LAMMPS*, int, char**);
   ~FixHemoDrag() override;
   int setmask() override;
@@ -42,7 +42,7 @@ class FixHemoDrag : public Fix {
 
   bool feedback() const { return feedback_; }
 
- private:
+private:
   double bare_friction(double radius) const;
   void choose_substeps();
   void stiff_forces();

@@ -28,7 +28,10 @@ FixHemoField::FixHemoField(LAMMPS* lmp, int narg, char** arg)
     if (key == "susceptibility" && at + 2 < narg) {
       const int type = utils::inumeric(FLERR, arg[at + 1], false, lmp);
       if (type < 1 || type > atom->ntypes)
-        error->all(FLERR, std::string("fix hemo/field: susceptibility TYPE CHI_VC needs an atom type of the system"));
+        error->all(
+            FLERR,
+            std::string(
+                "fix hemo/field: susceptibility TYPE CHI_VC needs an atom type of the system"));
       chi_volume_[static_cast<std::size_t>(type)] = utils::numeric(FLERR, arg[at + 2], false, lmp);
       at += 3;
     } else {
@@ -58,12 +61,14 @@ int FixHemoField::parse_field(int narg, char** arg, int at) {
   } else if (kind == "gradient") {
     const std::string axis = at < narg ? arg[at++] : "";
     if (axis != "x" && axis != "y" && axis != "z")
-      error->all(FLERR, std::string("fix hemo/field: gradient AXIS SLOPE ZERO needs an axis x, y or z"));
+      error->all(FLERR,
+                 std::string("fix hemo/field: gradient AXIS SLOPE ZERO needs an axis x, y or z"));
     const double slope = number(), zero = number();
     field_ = magnetic::AxialGradient{axis[0] - 'x', slope, zero};
   } else {
-    error->all(FLERR, "fix hemo/field: " + kind + " is unknown; accepted: susceptibility TYPE CHI_VC, none, "
-                                                  "uniform BX BY BZ, gradient AXIS SLOPE ZERO");
+    error->all(FLERR, "fix hemo/field: " + kind +
+                          " is unknown; accepted: susceptibility TYPE CHI_VC, none, "
+                          "uniform BX BY BZ, gradient AXIS SLOPE ZERO");
   }
   return at;
 }

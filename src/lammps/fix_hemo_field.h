@@ -17,7 +17,7 @@ namespace LAMMPS_NS {
 
 /// `fix hemo/field`: external field, induced moments and (m.grad)B (docs/styles/fix_hemo_field.md).
 class FixHemoField : public Fix {
- public:
+public:
   FixHemoField(LAMMPS*, int, char**);
   ~FixHemoField() override;
   int setmask() override;
@@ -40,7 +40,7 @@ class FixHemoField : public Fix {
   /// Moments of owned and ghost carriers, [nmax][3]; valid from pre_force on. Zero for other atoms.
   double** moments() { return moment_; }
 
- private:
+private:
   int parse_field(int narg, char** arg, int at);
 
   std::vector<double> chi_volume_;  // by type

@@ -46,7 +46,9 @@ int FixHemoFluid::parse_keyword(int narg, char** arg, int at) {
   };
   const auto expect = [&](const char* word) {
     if (std::string(next()) != word)
-      error->all(FLERR, std::string("fix hemo/fluid: plates AXIS lower VX VY VZ upper VX VY VZ is expected"));
+      error->all(
+          FLERR,
+          std::string("fix hemo/fluid: plates AXIS lower VX VY VZ upper VX VY VZ is expected"));
   };
   auto& p = *parameters_;
   if (key == "tau") {
@@ -60,7 +62,8 @@ int FixHemoFluid::parse_keyword(int narg, char** arg, int at) {
       error->all(FLERR, "fix hemo/fluid: scheme " + scheme + " is not available; accepted: trt");
   } else if (key == "magic") {
     p.relaxation.magic = number();
-    if (p.relaxation.magic <= 0) error->all(FLERR, std::string("fix hemo/fluid: magic must be > 0"));
+    if (p.relaxation.magic <= 0)
+      error->all(FLERR, std::string("fix hemo/fluid: magic must be > 0"));
   } else if (key == "kernel") {
     hemomag::lammps::or_fail(lmp, FLERR, [&] { p.kernel = hemomag::ibm::delta_kernel(next()); });
   } else if (key == "plates") {
@@ -103,15 +106,17 @@ void FixHemoFluid::require_place_in_script() const {
   if (!force->newton_pair || !force->newton_bond)
     error->all(FLERR, std::string("fix hemo/fluid needs `newton on`"));
   if (comm->layout != Comm::LAYOUT_UNIFORM || comm->style != 0)
-    error->all(FLERR, std::string("fix hemo/fluid: the fluid needs equal bricks; load balancing sees atoms "
-                                  "only and is refused"));
+    error->all(FLERR, std::string(
+                          "fix hemo/fluid: the fluid needs equal bricks; load balancing sees atoms "
+                          "only and is refused"));
   bool after = false;
   for (int i = 0; i < modify->nfix; ++i) {
     if (modify->fix[i] == this)
       after = true;
     else if (after && (modify->fmask[i] & FixConst::POST_FORCE))
-      error->all(FLERR, "fix hemo/fluid must be the last fix that adds forces: define it after fix " +
-                            std::string(modify->fix[i]->id));
+      error->all(FLERR,
+                 "fix hemo/fluid must be the last fix that adds forces: define it after fix " +
+                     std::string(modify->fix[i]->id));
   }
 }
 
@@ -124,8 +129,10 @@ void FixHemoFluid::create_solver() {
     const double nodes = domain->boxhi[d] - domain->boxlo[d];
     const int n = static_cast<int>(std::lround(nodes));
     if (domain->boxlo[d] != 0.0 || std::fabs(nodes - n) > 1e-9 || n < 1)
-      error->all(FLERR, std::string("fix hemo/fluid: the box must run from 0 to a whole number of nodes along ") +
-                            "xyz"[d]);
+      error->all(
+          FLERR,
+          std::string("fix hemo/fluid: the box must run from 0 to a whole number of nodes along ") +
+              "xyz"[d]);
     const bool plate = parameters_->plate_axis == d;
     if (plate == (domain->periodicity[d] != 0))
       error->all(FLERR, std::string("fix hemo/fluid: axis ") + "xyz"[d] +
@@ -141,7 +148,8 @@ void FixHemoFluid::create_solver() {
     }
   }
   parameters_->reach_beyond_block = 0.5 * neighbor->skin;
-  hemomag::lammps::or_fail(lmp, FLERR, [&] { solver_ = std::make_unique<FluidSolver>(at, *parameters_); });
+  hemomag::lammps::or_fail(lmp, FLERR,
+                           [&] { solver_ = std::make_unique<FluidSolver>(at, *parameters_); });
 
   const int axis = parameters_->plate_axis;
   const Vec3 low = parameters_->plate_velocity[0], high = parameters_->plate_velocity[1];
@@ -168,8 +176,8 @@ void FixHemoFluid::post_force(int) {
     return std::span<const Vec3>(n > 0 ? reinterpret_cast<const Vec3*>(rows[0]) : nullptr, n);
   };
   solver_->clear_forces();
-  const auto lost =
-      solver_->spread(vectors(atom->x), {{atom->mask, n}, groupbit, one_way_bits_}, vectors(atom->f));
+  const auto lost = solver_->spread(vectors(atom->x), {{atom->mask, n}, groupbit, one_way_bits_},
+                                    vectors(atom->f));
   if (lost >= 0) lost_point(lost, "spreading its force");
   solver_->step();
   done_step_ = update->ntimestep;
@@ -179,18 +187,20 @@ void FixHemoFluid::velocity_at_atoms(int bits, double** v) {
   const auto n = static_cast<std::size_t>(atom->nlocal);
   if (n == 0) return;
   const std::span<const Vec3> x(reinterpret_cast<const Vec3*>(atom->x[0]), n);
-  const auto lost = solver_->interpolate(x, {{atom->mask, n}, bits, 0},
-                                         {reinterpret_cast<Vec3*>(v[0]), n});
+  const auto lost =
+      solver_->interpolate(x, {{atom->mask, n}, bits, 0}, {reinterpret_cast<Vec3*>(v[0]), n});
   if (lost >= 0) lost_point(lost, "reading the fluid's velocity");
 }
 
 void FixHemoFluid::lost_point(long i, const char* doing) const {
   const double* x = atom->x[i];
-  hemomag::lammps::fail_here(lmp, FLERR, "fix hemo/fluid: step " + std::to_string(update->ntimestep) + ", rank " +
-                        std::to_string(comm->me) + ": atom " + std::to_string(atom->tag[i]) + " at " +
-                        std::to_string(x[0]) + " " + std::to_string(x[1]) + " " + std::to_string(x[2]) +
-                        " is outside the channel or not finite while " + doing +
-                        " (forces too strong for the time step?)");
+  hemomag::lammps::fail_here(lmp, FLERR,
+                             "fix hemo/fluid: step " + std::to_string(update->ntimestep) +
+                                 ", rank " + std::to_string(comm->me) + ": atom " +
+                                 std::to_string(atom->tag[i]) + " at " + std::to_string(x[0]) +
+                                 " " + std::to_string(x[1]) + " " + std::to_string(x[2]) +
+                                 " is outside the channel or not finite while " + doing +
+                                 " (forces too strong for the time step?)");
 }
 
 FluidSolver& FixHemoFluid::solver() {
@@ -200,7 +210,9 @@ FluidSolver& FixHemoFluid::solver() {
 
 double FixHemoFluid::viscosity() const { return parameters_->relaxation.viscosity(); }
 
-double FixHemoFluid::point_radius() const { return hemomag::ibm::hydrodynamic_radius(parameters_->kernel); }
+double FixHemoFluid::point_radius() const {
+  return hemomag::ibm::hydrodynamic_radius(parameters_->kernel);
+}
 
 double FixHemoFluid::compute_scalar() {
   double mine = solver_->excess_mass(), all = 0;
@@ -209,16 +221,23 @@ double FixHemoFluid::compute_scalar() {
   return all + static_cast<double>(n[0]) * n[1] * n[2];
 }
 
-/// 1-3 fluid momentum, 4-6 force on nodes, 7-9 plates' share of the spread force, 10-12 and 13-15 momentum that
-/// bounce-back gave to the low and to the high plate, all in the last step.
+/// 1-3 fluid momentum, 4-6 force on nodes, 7-9 plates' share of the spread force, 10-12 and 13-15
+/// momentum that bounce-back gave to the low and to the high plate, all in the last step.
 double FixHemoFluid::compute_vector(int k) {
   const auto d = static_cast<std::size_t>(k % 3);
   Vec3 mine;
   switch (k / 3) {
-    case 0: mine = solver_->momentum(); break;
-    case 1: mine = solver_->node_force(); break;
-    case 2: mine = solver_->plate_share(); break;
-    default: mine = solver_->plate_momentum()[static_cast<std::size_t>(k / 3 - 3)];
+  case 0:
+    mine = solver_->momentum();
+    break;
+  case 1:
+    mine = solver_->node_force();
+    break;
+  case 2:
+    mine = solver_->plate_share();
+    break;
+  default:
+    mine = solver_->plate_momentum()[static_cast<std::size_t>(k / 3 - 3)];
   }
   double sum = 0;
   MPI_Allreduce(&mine[d], &sum, 1, MPI_DOUBLE, MPI_SUM, world);

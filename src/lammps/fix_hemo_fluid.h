@@ -18,9 +18,10 @@ struct FluidParameters;
 
 namespace LAMMPS_NS {
 
-/// `fix hemo/fluid`: the lattice Boltzmann fluid (docs/styles/fix_hemo_fluid.md). Last of the post_force fixes.
+/// `fix hemo/fluid`: the lattice Boltzmann fluid (docs/styles/fix_hemo_fluid.md). Last of the
+/// post_force fixes.
 class FixHemoFluid : public Fix {
- public:
+public:
   FixHemoFluid(LAMMPS*, int, char**);
   ~FixHemoFluid() override;
   int setmask() override;
@@ -35,10 +36,11 @@ class FixHemoFluid : public Fix {
   double viscosity() const;
   /// Hydrodynamic radius of a point coupled by this fluid's kernel, in nodes.
   double point_radius() const;
-  /// Velocity of the fluid at the owned atoms of a group, into v[i]. Fatal when one has left the halo.
+  /// Velocity of the fluid at the owned atoms of a group, into v[i]. Fatal when one has left the
+  /// halo.
   void velocity_at_atoms(int groupbit, double** v);
 
- private:
+private:
   enum class Initial { rest, linear };
 
   void create_solver();

@@ -13,9 +13,10 @@ namespace LAMMPS_NS {
 
 class FixHemoSeries;
 
-/// `fix hemo/progress dt_s DT`: a live line on the terminal of rank 0 (docs/styles/fix_hemo_progress.md).
+/// `fix hemo/progress dt_s DT`: a live line on the terminal of rank 0
+/// (docs/styles/fix_hemo_progress.md).
 class FixHemoProgress : public Fix {
- public:
+public:
   FixHemoProgress(LAMMPS*, int, char**);
   int setmask() override;
   void init() override;
@@ -23,7 +24,7 @@ class FixHemoProgress : public Fix {
   void end_of_step() override;
   void post_run() override;
 
- private:
+private:
   void print(double now);
 
   double dt_s_ = 1;

@@ -13,7 +13,9 @@
 using namespace LAMMPS_NS;
 
 FixHemoSeries::FixHemoSeries(LAMMPS* lmp, int narg, char** arg) : Fix(lmp, narg, arg) {
-  if (narg < 6) error->all(FLERR, std::string("fix hemo/series needs N COMPUTE_ID FILE [dt_s DT] [average_from T]"));
+  if (narg < 6)
+    error->all(FLERR,
+               std::string("fix hemo/series needs N COMPUTE_ID FILE [dt_s DT] [average_from T]"));
   nevery = utils::inumeric(FLERR, arg[3], false, lmp);
   if (nevery <= 0) error->all(FLERR, std::string("fix hemo/series: N must be > 0"));
   compute_id_ = arg[4];

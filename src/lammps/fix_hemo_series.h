@@ -22,7 +22,7 @@ class Compute;
 
 /// `fix hemo/series`: margination against time in a CSV file (docs/styles/fix_hemo_series.md).
 class FixHemoSeries : public Fix {
- public:
+public:
   FixHemoSeries(LAMMPS*, int, char**);
   ~FixHemoSeries() override;
   int setmask() override;
@@ -34,9 +34,11 @@ class FixHemoSeries : public Fix {
   double in_layer() const { return in_layer_; }
   double probability_end() const { return probability_; }
   /// Mean over the rows from average_from on; the last value when there is none.
-  double probability_mean() const { return rows_ > 0 ? sum_ / static_cast<double>(rows_) : probability_; }
+  double probability_mean() const {
+    return rows_ > 0 ? sum_ / static_cast<double>(rows_) : probability_;
+  }
 
- private:
+private:
   void record();
 
   std::string compute_id_, path_;

@@ -23,7 +23,8 @@ namespace io = hemomag::io;
 using hemomag::Vec3;
 
 FixHemoSnapshot::FixHemoSnapshot(LAMMPS* lmp, int narg, char** arg) : Fix(lmp, narg, arg) {
-  if (narg < 5) error->all(FLERR, std::string("fix hemo/snapshot needs N DIRECTORY [dx_um DX] [dt_s DT]"));
+  if (narg < 5)
+    error->all(FLERR, std::string("fix hemo/snapshot needs N DIRECTORY [dx_um DX] [dt_s DT]"));
   nevery = utils::inumeric(FLERR, arg[3], false, lmp);
   if (nevery <= 0) error->all(FLERR, std::string("fix hemo/snapshot: N must be > 0"));
   directory_ = arg[4];
@@ -50,7 +51,8 @@ void FixHemoSnapshot::init() {
   fluid_ = hemomag::lammps::find_fix<FixHemoFluid>(lmp, "hemo/fluid");
   if (fluid_) add("fluid", &FixHemoSnapshot::write_fluid);
   if (force->angle_match("hemo/membrane")) add("cells", &FixHemoSnapshot::write_cells);
-  if (hemomag::lammps::find_fix<FixHemoDrag>(lmp, "hemo/drag")) add("carriers", &FixHemoSnapshot::write_carriers);
+  if (hemomag::lammps::find_fix<FixHemoDrag>(lmp, "hemo/drag"))
+    add("carriers", &FixHemoSnapshot::write_carriers);
 }
 
 void FixHemoSnapshot::setup(int) {
@@ -97,7 +99,8 @@ void FixHemoSnapshot::write_cells(const std::string& path) {
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     const auto& triangle = surface.triangles[t];
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto [at, fresh] = point_of.try_emplace(triangle.tag[k], static_cast<std::int64_t>(points.size() / 3));
+      const auto [at, fresh] =
+          point_of.try_emplace(triangle.tag[k], static_cast<std::int64_t>(points.size() / 3));
       if (fresh)
         for (std::size_t d = 0; d < 3; ++d) points.push_back(triangle.x[k][d] * dx_um_);
       corners.push_back(at->second);
@@ -113,8 +116,8 @@ void FixHemoSnapshot::write_carriers(const std::string& path) {
   const double metres_per_second = dx_um_ * 1e-6 / dt_s_;
   std::vector<double> points;
   std::vector<std::int64_t> corners;
-  io::DataArray velocity{"velocity_m_per_s", 3, {}}, id{"carrier_id", 1, {}}, worm{"worm_id", 1, {}},
-      moment{"moment_lattice", 3, {}};
+  io::DataArray velocity{"velocity_m_per_s", 3, {}}, id{"carrier_id", 1, {}},
+      worm{"worm_id", 1, {}}, moment{"moment_lattice", 3, {}};
   for (int i = 0; i < atom->nlocal; ++i) {
     if (!(atom->mask[i] & drag->groupbit)) continue;
     corners.push_back(static_cast<std::int64_t>(corners.size()));

@@ -18,16 +18,17 @@ namespace LAMMPS_NS {
 
 class FixHemoFluid;
 
-/// `fix hemo/snapshot`: fluid, cells and carriers as VTKHDF files (docs/styles/fix_hemo_snapshot.md).
+/// `fix hemo/snapshot`: fluid, cells and carriers as VTKHDF files
+/// (docs/styles/fix_hemo_snapshot.md).
 class FixHemoSnapshot : public Fix {
- public:
+public:
   FixHemoSnapshot(LAMMPS*, int, char**);
   int setmask() override;
   void init() override;
   void setup(int) override;
   void end_of_step() override;
 
- private:
+private:
   void write();
   void write_fluid(const std::string& path);
   void write_cells(const std::string& path);

@@ -24,7 +24,9 @@ namespace analysis = hemomag::analysis;
 using hemomag::Vec3;
 
 FixHemoWatch::FixHemoWatch(LAMMPS* lmp, int narg, char** arg) : Fix(lmp, narg, arg) {
-  if (narg < 4) error->all(FLERR, std::string("fix hemo/watch needs N [mach_max M] [cells GROUP] [carriers GROUP]"));
+  if (narg < 4)
+    error->all(FLERR,
+               std::string("fix hemo/watch needs N [mach_max M] [cells GROUP] [carriers GROUP]"));
   nevery = utils::inumeric(FLERR, arg[3], false, lmp);
   if (nevery <= 0) error->all(FLERR, std::string("fix hemo/watch: N must be > 0"));
   for (int at = 4; at + 1 < narg; at += 2) {
@@ -36,7 +38,8 @@ FixHemoWatch::FixHemoWatch(LAMMPS* lmp, int narg, char** arg) : Fix(lmp, narg, a
     else if (key == "carriers")
       carrier_bits_ = group_bit(arg[at + 1]);
     else
-      error->all(FLERR, "fix hemo/watch: " + key + " is unknown; accepted: mach_max, cells, carriers");
+      error->all(FLERR,
+                 "fix hemo/watch: " + key + " is unknown; accepted: mach_max, cells, carriers");
   }
   vector_flag = 1;
   size_vector = 6;
@@ -81,11 +84,13 @@ void FixHemoWatch::check_finite() {
   tagint mine = 0, found = 0;
   for (int i = 0; i < atom->nlocal; ++i)
     for (int d = 0; d < 3; ++d)
-      if (!std::isfinite(atom->x[i][d] + atom->v[i][d] + atom->f[i][d])) mine = std::max(mine, atom->tag[i]);
+      if (!std::isfinite(atom->x[i][d] + atom->v[i][d] + atom->f[i][d]))
+        mine = std::max(mine, atom->tag[i]);
   MPI_Allreduce(&mine, &found, 1, MPI_LMP_TAGINT, MPI_MAX, world);
   if (found > 0)
-    violation("position, velocity or force of atom " + std::to_string(found) +
-              " is not finite (the run is unstable: a shorter time step or weaker forces may help)");
+    violation(
+        "position, velocity or force of atom " + std::to_string(found) +
+        " is not finite (the run is unstable: a shorter time step or weaker forces may help)");
 }
 
 void FixHemoWatch::check_mach() {
@@ -96,7 +101,8 @@ void FixHemoWatch::check_mach() {
   const double mach = all * std::sqrt(3.0);
   record_.mach_max = std::max(record_.mach_max, mach);
   if (mach > mach_limit_)
-    violation("the fluid's Mach number is " + std::to_string(mach) + ", the limit is " + std::to_string(mach_limit_) +
+    violation("the fluid's Mach number is " + std::to_string(mach) + ", the limit is " +
+              std::to_string(mach_limit_) +
               " (plates too fast, or forces too strong for the time step)");
 }
 
@@ -126,7 +132,8 @@ void FixHemoWatch::check_counts(bool first) {
               std::to_string(record_.carriers_start) + " (they left through a plate)");
   if (cells != record_.cells_start || cell_atoms != cell_atoms_)
     violation("there are " + std::to_string(cells) + " cells of " + std::to_string(cell_atoms) +
-              " vertices, the run began with " + std::to_string(record_.cells_start) + " of " + std::to_string(cell_atoms_));
+              " vertices, the run began with " + std::to_string(record_.cells_start) + " of " +
+              std::to_string(cell_atoms_));
 }
 
 void FixHemoWatch::check_cells() {
@@ -143,7 +150,8 @@ void FixHemoWatch::check_cells() {
               " % (a cell turned inside out or burst)");
 }
 
-/// Every rank learns all carriers, counts crossings with its own triangles, and the counts are summed.
+/// Every rank learns all carriers, counts crossings with its own triangles, and the counts are
+/// summed.
 void FixHemoWatch::count_inside() {
   std::vector<double> mine;
   for (int i = 0; i < atom->nlocal; ++i)
@@ -154,20 +162,27 @@ void FixHemoWatch::count_inside() {
   for (std::size_t r = 1; r < counts.size(); ++r) starts[r] = starts[r - 1] + counts[r - 1];
   std::vector<Vec3> carriers(static_cast<std::size_t>(starts.back() + counts.back()) / 3);
   if (carriers.empty()) return;
-  MPI_Allgatherv(mine.data(), n, MPI_DOUBLE, &carriers[0].x, counts.data(), starts.data(), MPI_DOUBLE, world);
+  MPI_Allgatherv(mine.data(), n, MPI_DOUBLE, &carriers[0].x, counts.data(), starts.data(),
+                 MPI_DOUBLE, world);
 
   const auto surface = membrane_->surface();
-  const analysis::ChannelBox box{{domain->xprd, domain->yprd, domain->zprd}, domain->zperiodic != 0};
+  const analysis::ChannelBox box{{domain->xprd, domain->yprd, domain->zprd},
+                                 domain->zperiodic != 0};
   auto times = analysis::enclosure(carriers, surface.triangles, box);
-  MPI_Allreduce(MPI_IN_PLACE, times.data(), static_cast<int>(times.size()), MPI_INT, MPI_SUM, world);
+  MPI_Allreduce(MPI_IN_PLACE, times.data(), static_cast<int>(times.size()), MPI_INT, MPI_SUM,
+                world);
   const auto inside = std::count_if(times.begin(), times.end(), [](int t) { return t != 0; });
   record_.carriers_inside_max = std::max(record_.carriers_inside_max, static_cast<bigint>(inside));
 }
 
-/// 1 cells, 2 carriers, 3 most carriers inside cells, 4 largest Mach number, 5 area drift, 6 volume drift.
+/// 1 cells, 2 carriers, 3 most carriers inside cells, 4 largest Mach number, 5 area drift, 6 volume
+/// drift.
 double FixHemoWatch::compute_vector(int k) {
-  const double values[] = {static_cast<double>(record_.cells_end), static_cast<double>(record_.carriers_end),
-                           static_cast<double>(record_.carriers_inside_max), record_.mach_max, record_.area_drift_max,
+  const double values[] = {static_cast<double>(record_.cells_end),
+                           static_cast<double>(record_.carriers_end),
+                           static_cast<double>(record_.carriers_inside_max),
+                           record_.mach_max,
+                           record_.area_drift_max,
                            record_.volume_drift_max};
   return values[k];
 }

@@ -18,11 +18,11 @@ class AngleHemoMembrane;
 
 /// `fix hemo/watch`: is the run still sound? (docs/styles/fix_hemo_watch.md)
 class FixHemoWatch : public Fix {
- public:
+public:
   struct WatchRecord {
     bigint cells_start = 0, cells_end = 0;
     bigint carriers_start = 0, carriers_end = 0;
-    bigint carriers_inside_max = 0;                 ///< carriers found inside cells at one time
+    bigint carriers_inside_max = 0;  ///< carriers found inside cells at one time
     double mach_max = 0;
     double area_drift_max = 0, volume_drift_max = 0;  ///< largest |A/A0 - 1|, |V/V0 - 1| of a cell
   };
@@ -37,7 +37,7 @@ class FixHemoWatch : public Fix {
 
   const WatchRecord& record() const { return record_; }
 
- private:
+private:
   void look();
   void check_finite();
   void check_mach();

@@ -13,15 +13,15 @@ Host::Host(std::vector<std::string> arguments, MPI_Comm comm) : arguments_(std::
   std::vector<char*> argv;
   for (auto& a : arguments_) argv.push_back(a.data());
   argv.push_back(nullptr);
-  lmp_ = std::make_unique<LAMMPS_NS::LAMMPS>(static_cast<int>(arguments_.size()), argv.data(), comm);
+  lmp_ =
+      std::make_unique<LAMMPS_NS::LAMMPS>(static_cast<int>(arguments_.size()), argv.data(), comm);
   register_styles(*lmp_);
 }
 
 Host::~Host() = default;
 
 /// LAMMPS was built with exceptions, whose type its package does not ship.
-template <class Work>
-void Host::guarded(Work work) {
+template <class Work> void Host::guarded(Work work) {
   try {
     work();
   } catch (const Error&) {

@@ -16,8 +16,9 @@ namespace hemomag::lammps {
 /// One LAMMPS instance that knows the hemo styles. Fatal errors that all ranks meet arrive as
 /// Error; those that one rank meets alone end the program through MPI_Abort, as in LAMMPS itself.
 class Host {
- public:
-  /// @param arguments  LAMMPS command-line options, without the program name, e.g. {"-screen", "none"}
+public:
+  /// @param arguments  LAMMPS command-line options, without the program name, e.g. {"-screen",
+  /// "none"}
   Host(std::vector<std::string> arguments, MPI_Comm comm);
   ~Host();
   Host(const Host&) = delete;
@@ -30,9 +31,8 @@ class Host {
   /// Execute a script file, or standard input as given by `-in` when `path` is empty.
   void script(const std::string& path = {});
 
- private:
-  template <class Work>
-  void guarded(Work work);
+private:
+  template <class Work> void guarded(Work work);
 
   std::vector<std::string> arguments_;  // LAMMPS keeps pointers into these
   std::unique_ptr<LAMMPS_NS::LAMMPS> lmp_;

@@ -37,12 +37,14 @@ LAMMPS_NS::bigint orient_triangles(LAMMPS_NS::LAMMPS& lmp, const int* is_triangl
       if (!is_triangle[atom.angle_type[i][n]]) continue;
       const auto keeper = static_cast<std::size_t>(atom.molecule[i]) % ranks;
       ask[keeper].push_back(
-          {atom.molecule[i], {atom.angle_atom1[i][n], atom.angle_atom2[i][n], atom.angle_atom3[i][n]}});
+          {atom.molecule[i],
+           {atom.angle_atom1[i][n], atom.angle_atom2[i][n], atom.angle_atom3[i][n]}});
       asked_for[keeper].push_back({i, n});
     }
 
   const auto asked = solver::exchange_by_rank(lmp.world, ask);
-  std::map<std::int64_t, std::vector<std::pair<std::size_t, std::size_t>>> cells;  // (rank, question)
+  std::map<std::int64_t, std::vector<std::pair<std::size_t, std::size_t>>>
+      cells;  // (rank, question)
   std::vector<std::vector<char>> answer(ranks);
   for (std::size_t r = 0; r < ranks; ++r) {
     answer[r].resize(asked[r].size());
@@ -52,7 +54,8 @@ LAMMPS_NS::bigint orient_triangles(LAMMPS_NS::LAMMPS& lmp, const int* is_triangl
     std::vector<std::array<std::int64_t, 3>> triangles;
     for (const auto& [r, k] : questions) triangles.push_back(asked[r][k].triangle);
     const auto turn = membrane::triangles_to_turn(triangles);
-    for (std::size_t q = 0; q < questions.size(); ++q) answer[questions[q].first][questions[q].second] = turn[q];
+    for (std::size_t q = 0; q < questions.size(); ++q)
+      answer[questions[q].first][questions[q].second] = turn[q];
   }
 
   const auto turn = solver::exchange_by_rank(lmp.world, answer);

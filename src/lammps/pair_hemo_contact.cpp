@@ -73,7 +73,10 @@ void PairHemoContact::coeff(int narg, char** arg) {
     }
   }
   if (c.morse.depth < 0 || c.lj.epsilon < 0 || c.lj.sigma < 0 || c.morse.cutoff < 0)
-    error->all(FLERR, std::string("pair_style hemo/contact: depth, epsilon, sigma and cutoff must not be negative"));
+    error->all(
+        FLERR,
+        std::string(
+            "pair_style hemo/contact: depth, epsilon, sigma and cutoff must not be negative"));
   int ilo = 0, ihi = 0, jlo = 0, jhi = 0;
   utils::bounds(FLERR, std::string(arg[0]), 1, types_, ilo, ihi, error);
   utils::bounds(FLERR, std::string(arg[1]), 1, types_, jlo, jhi, error);
@@ -83,8 +86,8 @@ void PairHemoContact::coeff(int narg, char** arg) {
 
 double PairHemoContact::init_one(int i, int j) {
   if (setflag[i][j] == 0)
-    error->all(FLERR, "pair_style hemo/contact: types " + std::to_string(i) + " and " + std::to_string(j) +
-                          " have no coefficients; nothing is mixed");
+    error->all(FLERR, "pair_style hemo/contact: types " + std::to_string(i) + " and " +
+                          std::to_string(j) + " have no coefficients; nothing is mixed");
   const auto& c = between(i, j);
   return std::sqrt(std::max(c.morse_cut2, c.lj_cut2));
 }
@@ -129,8 +132,8 @@ void PairHemoContact::compute(int eflag, int vflag) {
       fi += pair * d;
       f[j] -= pair * d;
       if (evflag)
-        ev_tally(i, j, atom->nlocal, force->newton_pair, eflag ? factor * energy(c, r2) : 0.0, 0.0, pair, d.x, d.y,
-                 d.z);
+        ev_tally(i, j, atom->nlocal, force->newton_pair, eflag ? factor * energy(c, r2) : 0.0, 0.0,
+                 pair, d.x, d.y, d.z);
     }
     f[i] += fi;
   }

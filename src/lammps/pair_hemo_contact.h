@@ -16,10 +16,10 @@ PairStyle(hemo/contact,PairHemoContact)
 
 namespace LAMMPS_NS {
 
-/// `pair_style hemo/contact`: Morse attraction and short LJ repulsion between membranes, and between membranes and
-/// carriers (docs/styles/pair_hemo_contact.md).
+/// `pair_style hemo/contact`: Morse attraction and short LJ repulsion between membranes, and
+/// between membranes and carriers (docs/styles/pair_hemo_contact.md).
 class PairHemoContact : public Pair {
- public:
+public:
   explicit PairHemoContact(LAMMPS*);
   ~PairHemoContact() override;
   void compute(int, int) override;
@@ -30,14 +30,16 @@ class PairHemoContact : public Pair {
   void read_restart(FILE*) override;
   double single(int, int, int, int, double, double, double, double&) override;
 
- private:
+private:
   struct Contact {
     hemomag::contact::Morse morse;
     hemomag::contact::LennardJones lj;
     double morse_cut2 = 0, lj_cut2 = 0;
   };
   void allocate();
-  Contact& between(int i, int j) { return contact_[static_cast<std::size_t>(i * (types_ + 1) + j)]; }
+  Contact& between(int i, int j) {
+    return contact_[static_cast<std::size_t>(i * (types_ + 1) + j)];
+  }
   void set(int i, int j, const Contact& contact);
   /// -dU/dr over r at the squared distance r2.
   static double force_over_r(const Contact& c, double r2);

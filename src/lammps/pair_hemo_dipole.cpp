@@ -44,16 +44,18 @@ void PairHemoDipole::allocate() {
 }
 
 void PairHemoDipole::settings(int narg, char** arg) {
-  if (narg != 1) error->all(FLERR, std::string("pair_style hemo/dipole needs one argument, its cut-off"));
+  if (narg != 1)
+    error->all(FLERR, std::string("pair_style hemo/dipole needs one argument, its cut-off"));
   cutoff_ = utils::numeric(FLERR, arg[0], false, lmp);
-  if (!(cutoff_ > 0)) error->all(FLERR, std::string("pair_style hemo/dipole: the cut-off must be > 0"));
+  if (!(cutoff_ > 0))
+    error->all(FLERR, std::string("pair_style hemo/dipole: the cut-off must be > 0"));
 }
 
 /// pair_coeff I J CONTACT_DISTANCE soft KAPPA | paper EPSILON SIGMA
 void PairHemoDipole::coeff(int narg, char** arg) {
   if (!allocated) allocate();
-  const std::string usage =
-      "pair_style hemo/dipole: pair_coeff I J CONTACT_DISTANCE soft KAPPA | paper EPSILON SIGMA is expected";
+  const std::string usage = "pair_style hemo/dipole: pair_coeff I J CONTACT_DISTANCE soft KAPPA | "
+                            "paper EPSILON SIGMA is expected";
   if (narg < 5) error->all(FLERR, usage);
   Pairing p;
   p.contact_distance = utils::numeric(FLERR, arg[2], false, lmp);
@@ -67,7 +69,8 @@ void PairHemoDipole::coeff(int narg, char** arg) {
   } else {
     error->all(FLERR, usage);
   }
-  if (!(p.contact_distance > 0) || !(p.kappa > 0) || (p.repulsion == Repulsion::paper && !(p.epsilon > 0 && p.sigma > 0)))
+  if (!(p.contact_distance > 0) || !(p.kappa > 0) ||
+      (p.repulsion == Repulsion::paper && !(p.epsilon > 0 && p.sigma > 0)))
     error->all(FLERR, std::string("pair_style hemo/dipole: all coefficients must be > 0"));
   int ilo = 0, ihi = 0, jlo = 0, jhi = 0;
   utils::bounds(FLERR, std::string(arg[0]), 1, types_, ilo, ihi, error);
@@ -81,15 +84,16 @@ void PairHemoDipole::coeff(int narg, char** arg) {
 
 void PairHemoDipole::init_style() {
   field_ = hemomag::lammps::find_fix<FixHemoField>(lmp, "hemo/field");
-  if (!field_) error->all(FLERR, std::string("pair_style hemo/dipole needs a fix hemo/field for its moments"));
+  if (!field_)
+    error->all(FLERR, std::string("pair_style hemo/dipole needs a fix hemo/field for its moments"));
   substepped_ = hemomag::lammps::find_fix<FixHemoDrag>(lmp, "hemo/drag") != nullptr;
   neighbor->request(this, instance_me);
 }
 
 double PairHemoDipole::init_one(int i, int j) {
   if (setflag[i][j] == 0)
-    error->all(FLERR, "pair_style hemo/dipole: types " + std::to_string(i) + " and " + std::to_string(j) +
-                          " have no coefficients; nothing is mixed");
+    error->all(FLERR, "pair_style hemo/dipole: types " + std::to_string(i) + " and " +
+                          std::to_string(j) + " have no coefficients; nothing is mixed");
   return cutoff_;
 }
 
@@ -104,17 +108,18 @@ magnetic::PairForce PairHemoDipole::force_between(int i, int j, const Vec3& r) {
     repulsion = magnetic::soft_repulsion(pull, p.kappa, p.contact_distance, r);
   } else {
     if (norm(r) <= p.contact_distance)
-      hemomag::lammps::fail_here(lmp, FLERR, "pair_style hemo/dipole: step " + std::to_string(update->ntimestep) + ": carriers " +
-                            std::to_string(atom->tag[i]) + " and " + std::to_string(atom->tag[j]) +
-                            " touch, where the repulsion of Eq. 26 is singular (use soft)");
+      hemomag::lammps::fail_here(
+          lmp, FLERR,
+          "pair_style hemo/dipole: step " + std::to_string(update->ntimestep) + ": carriers " +
+              std::to_string(atom->tag[i]) + " and " + std::to_string(atom->tag[j]) +
+              " touch, where the repulsion of Eq. 26 is singular (use soft)");
     repulsion = magnetic::paper_repulsion(p.epsilon, p.sigma, p.contact_distance, r);
   }
   return {pair.on_j + repulsion.on_j, pair.energy + repulsion.energy};
 }
 
 /// visit(i, j, r) for every pair of the list within the cut-off.
-template <class Visit>
-void PairHemoDipole::for_each_pair(double** x_, Visit visit) {
+template <class Visit> void PairHemoDipole::for_each_pair(double** x_, Visit visit) {
   if (list->inum == 0) return;
   const auto* x = reinterpret_cast<const Vec3*>(x_[0]);
   const double cut2 = cutoff_ * cutoff_;
@@ -145,8 +150,8 @@ void PairHemoDipole::compute(int eflag, int vflag) {
   if (!evflag) return;
   for_each_pair(atom->x, [&](int i, int j, const Vec3& r) {
     const auto pair = force_between(i, j, r);
-    ev_tally_xyz(i, j, atom->nlocal, force->newton_pair, 0.0, pair.energy, -pair.on_j.x, -pair.on_j.y,
-                 -pair.on_j.z, -r.x, -r.y, -r.z);
+    ev_tally_xyz(i, j, atom->nlocal, force->newton_pair, 0.0, pair.energy, -pair.on_j.x,
+                 -pair.on_j.y, -pair.on_j.z, -r.x, -r.y, -r.z);
   });
 }
 
@@ -157,22 +162,26 @@ double PairHemoDipole::max_stiffness() {
     const auto type = static_cast<std::size_t>(atom->type[i]);
     strongest[type] = std::max(strongest[type], hemomag::norm(Vec3{m[i][0], m[i][1], m[i][2]}));
   }
-  MPI_Allreduce(strongest.data(), all.data(), static_cast<int>(all.size()), MPI_DOUBLE, MPI_MAX, world);
+  MPI_Allreduce(strongest.data(), all.data(), static_cast<int>(all.size()), MPI_DOUBLE, MPI_MAX,
+                world);
   double stiffest = 0;
   for (int i = 1; i <= types_; ++i)
     for (int j = i; j <= types_; ++j) {
       if (!setflag[i][j]) continue;
       const Pairing& p = between(i, j);
-      const double pull = magnetic::contact_pull(all[static_cast<std::size_t>(i)], all[static_cast<std::size_t>(j)],
-                                                 p.contact_distance);
-      stiffest = std::max(stiffest, p.repulsion == Repulsion::soft
-                                        ? magnetic::soft_stiffness(pull, p.kappa, p.contact_distance)
-                                        : magnetic::paper_stiffness(pull, p.epsilon, p.sigma));
+      const double pull = magnetic::contact_pull(
+          all[static_cast<std::size_t>(i)], all[static_cast<std::size_t>(j)], p.contact_distance);
+      stiffest =
+          std::max(stiffest, p.repulsion == Repulsion::soft
+                                 ? magnetic::soft_stiffness(pull, p.kappa, p.contact_distance)
+                                 : magnetic::paper_stiffness(pull, p.epsilon, p.sigma));
     }
   return stiffest;
 }
 
-void PairHemoDipole::write_restart_settings(FILE* file) { std::fwrite(&cutoff_, sizeof(double), 1, file); }
+void PairHemoDipole::write_restart_settings(FILE* file) {
+  std::fwrite(&cutoff_, sizeof(double), 1, file);
+}
 
 void PairHemoDipole::read_restart_settings(FILE* file) {
   if (comm->me == 0) utils::sfread(FLERR, &cutoff_, sizeof(double), 1, file, nullptr, error);

@@ -17,9 +17,10 @@ namespace LAMMPS_NS {
 
 class FixHemoField;
 
-/// `pair_style hemo/dipole`: dipole-dipole force and finite size of carriers (docs/styles/pair_hemo_dipole.md).
+/// `pair_style hemo/dipole`: dipole-dipole force and finite size of carriers
+/// (docs/styles/pair_hemo_dipole.md).
 class PairHemoDipole : public Pair {
- public:
+public:
   explicit PairHemoDipole(LAMMPS*);
   ~PairHemoDipole() override;
   void compute(int, int) override;
@@ -32,25 +33,26 @@ class PairHemoDipole : public Pair {
   void write_restart_settings(FILE*) override;
   void read_restart_settings(FILE*) override;
 
-  /// Add the forces of every pair of the present list, at positions x, to f of owned and ghost atoms; the caller
-  /// sums ghosts.
+  /// Add the forces of every pair of the present list, at positions x, to f of owned and ghost
+  /// atoms; the caller sums ghosts.
   void accumulate(double** x, double** f);
   /// Largest contact stiffness at the present moments, over all ranks. Collective.
   double max_stiffness();
 
- private:
+private:
   enum class Repulsion : int { soft, paper };
   struct Pairing {
     double contact_distance = 0;
     Repulsion repulsion = Repulsion::soft;
-    double kappa = 30;             // soft
-    double epsilon = 0, sigma = 0; // paper
+    double kappa = 30;              // soft
+    double epsilon = 0, sigma = 0;  // paper
   };
   void allocate();
-  Pairing& between(int i, int j) { return pairing_[static_cast<std::size_t>(i * (types_ + 1) + j)]; }
+  Pairing& between(int i, int j) {
+    return pairing_[static_cast<std::size_t>(i * (types_ + 1) + j)];
+  }
   hemomag::magnetic::PairForce force_between(int i, int j, const hemomag::Vec3& r);
-  template <class Visit>
-  void for_each_pair(double** x, Visit visit);
+  template <class Visit> void for_each_pair(double** x, Visit visit);
 
   int types_ = 0;
   double cutoff_ = 0;

@@ -22,16 +22,14 @@
 namespace hemomag::lammps {
 namespace {
 
-template <class Style>
-LAMMPS_NS::Fix* new_fix(LAMMPS_NS::LAMMPS* lmp, int argc, char** argv) {
+template <class Style> LAMMPS_NS::Fix* new_fix(LAMMPS_NS::LAMMPS* lmp, int argc, char** argv) {
   return new Style(lmp, argc, argv);
 }
 template <class Style>
 LAMMPS_NS::Compute* new_compute(LAMMPS_NS::LAMMPS* lmp, int argc, char** argv) {
   return new Style(lmp, argc, argv);
 }
-template <class Base, class Style>
-Base* new_force(LAMMPS_NS::LAMMPS* lmp) {
+template <class Base, class Style> Base* new_force(LAMMPS_NS::LAMMPS* lmp) {
   return new Style(lmp);
 }
 

@@ -4,7 +4,8 @@
 
 namespace hemomag::lattice {
 
-/// The nodes one rank owns on a brick decomposition of the whole grid. Node i of a direction sits at i + 1/2.
+/// The nodes one rank owns on a brick decomposition of the whole grid. Node i of a direction sits
+/// at i + 1/2.
 struct Block {
   std::array<int, 3> global{};  ///< nodes of the whole grid, x y z
   std::array<int, 3> begin{};   ///< global index of the first owned node
@@ -16,8 +17,8 @@ struct Block {
   }
 };
 
-/// First node of part k when n nodes are shared by `parts` equal slabs: the nodes whose centres lie at or
-/// above k n / parts, i.e. ceil(k n / parts - 1/2) in exact integer arithmetic.
+/// First node of part k when n nodes are shared by `parts` equal slabs: the nodes whose centres lie
+/// at or above k n / parts, i.e. ceil(k n / parts - 1/2) in exact integer arithmetic.
 constexpr int first_node(int n, int parts, int k) {
   const long numerator = 2L * k * n - parts, denominator = 2L * parts;
   return static_cast<int>(numerator <= 0 ? 0 : (numerator + denominator - 1) / denominator);

@@ -4,9 +4,10 @@
 
 namespace hemomag::lattice {
 
-/// How one scalar of every node of a block lies in memory: [z][y][x], x fastest, with `halo` ghost nodes on
-/// every side. Every row starts on a 64-byte line and is padded to whole lines, so that a row is swept in full
-/// vectors without a remainder; what lies in the padding is never read by a real node.
+/// How one scalar of every node of a block lies in memory: [z][y][x], x fastest, with `halo` ghost
+/// nodes on every side. Every row starts on a 64-byte line and is padded to whole lines, so that a
+/// row is swept in full vectors without a remainder; what lies in the padding is never read by a
+/// real node.
 ///
 ///     | left halo | x = 0 ... nx-1 | padding, right halo |  next row's left halo ...
 struct NodeLayout {

@@ -4,7 +4,8 @@
 
 #include "base/vec3.hpp"
 
-// External magnetic fields and their exact gradients, in units where the vacuum permeability mu* is one.
+// External magnetic fields and their exact gradients, in units where the vacuum permeability mu* is
+// one.
 
 namespace hemomag::magnetic {
 

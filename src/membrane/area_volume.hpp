@@ -2,32 +2,38 @@
 #include "base/vec3.hpp"
 
 // Area and volume of triangles and the forces that conserve them (Eqs. 18, 19, 47-51).
-// Orientation: the vertices a, b, c of a triangle run counter-clockwise seen from outside the cell, so that
-// (b - a) x (c - a) points outwards.
+// Orientation: the vertices a, b, c of a triangle run counter-clockwise seen from outside the cell,
+// so that (b - a) x (c - a) points outwards.
 
 namespace hemomag::membrane {
 
 /// (b - a) x (c - a): outward normal, twice the area long.
-constexpr Vec3 twice_area_vector(const Vec3& a, const Vec3& b, const Vec3& c) { return cross(b - a, c - a); }
+constexpr Vec3 twice_area_vector(const Vec3& a, const Vec3& b, const Vec3& c) {
+  return cross(b - a, c - a);
+}
 
-/// Signed volume of the tetrahedron between the origin and the triangle; over a closed surface the sum is the volume,
-/// wherever the origin. Signed, so that a cell need not be star-shaped.
-constexpr double volume_under(const Vec3& a, const Vec3& b, const Vec3& c) { return dot(a, cross(b, c)) / 6; }
+/// Signed volume of the tetrahedron between the origin and the triangle; over a closed surface the
+/// sum is the volume, wherever the origin. Signed, so that a cell need not be star-shaped.
+constexpr double volume_under(const Vec3& a, const Vec3& b, const Vec3& c) {
+  return dot(a, cross(b, c)) / 6;
+}
 
 struct TriangleForces {
   Vec3 a, b, c;
 };
 
-/// Force of an energy that depends on one triangle's area: F = -E'(A) dA/dx, with dA/da = (b - c) x n / 2 (n the unit
-/// normal) and so round. The three sum to zero.
-inline TriangleForces area_forces(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& n, double dE_dA) {
+/// Force of an energy that depends on one triangle's area: F = -E'(A) dA/dx, with dA/da = (b - c) x
+/// n / 2 (n the unit normal) and so round. The three sum to zero.
+inline TriangleForces area_forces(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& n,
+                                  double dE_dA) {
   const double s = -0.5 * dE_dA;
   return {s * cross(b - c, n), s * cross(c - a, n), s * cross(a - b, n)};
 }
 
-/// Force of an energy that depends on the cell's volume, F = -E'(V) dV/dx (Eq. 51). dV/da = (b x c)/6 summed over
-/// the fan of triangles around a vertex equals a sixth of the sum of their twice-area vectors, because the rim of the fan
-/// is closed; this form needs no origin. The three do not sum to zero for one triangle, but do over a closed surface.
+/// Force of an energy that depends on the cell's volume, F = -E'(V) dV/dx (Eq. 51). dV/da = (b x
+/// c)/6 summed over the fan of triangles around a vertex equals a sixth of the sum of their
+/// twice-area vectors, because the rim of the fan is closed; this form needs no origin. The three
+/// do not sum to zero for one triangle, but do over a closed surface.
 inline TriangleForces volume_forces(const Vec3& twice_area, double dE_dV) {
   const Vec3 third = (-dE_dV / 6) * twice_area;
   return {third, third, third};
@@ -36,6 +42,8 @@ inline TriangleForces volume_forces(const Vec3& twice_area, double dE_dV) {
 /// dE/dX of k (X - X0)^2/(2 X0) (Eqs. 18, 19).
 /// Differs from eq. (18): the global term is divided by A_t0, as Eq. 48 has it.
 constexpr double restoring(double k, double x, double x0) { return k * (x - x0) / x0; }
-constexpr double quadratic(double k, double x, double x0) { return 0.5 * k * (x - x0) * (x - x0) / x0; }
+constexpr double quadratic(double k, double x, double x0) {
+  return 0.5 * k * (x - x0) * (x - x0) / x0;
+}
 
 }  // namespace hemomag::membrane

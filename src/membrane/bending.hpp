@@ -5,7 +5,8 @@
 
 // Bending at the hinges of a triangulated membrane (Eqs. 20, 52-54).
 //
-// A hinge is the edge p2-p3 between the triangles (p1, p2, p3) and (p4, p3, p2), both oriented outwards:
+// A hinge is the edge p2-p3 between the triangles (p1, p2, p3) and (p4, p3, p2), both oriented
+// outwards:
 //
 //           p3
 //          /|\            n1 = (p2 - p1) x (p3 - p1)
@@ -40,8 +41,8 @@ inline HingeGeometry make_hinge(const Vec3& p1, const Vec3& p2, const Vec3& p3, 
 }
 
 struct Bending {
-  double k_b = 0;       ///< hinge stiffness [energy]
-  double sine0 = 0;     ///< of the rest angle
+  double k_b = 0;    ///< hinge stiffness [energy]
+  double sine0 = 0;  ///< of the rest angle
   double cosine0 = 1;
 };
 
@@ -54,11 +55,13 @@ struct HingeForces {
   Vec3 f1, f2, f3, f4;
 };
 
-/// F = -k_b sin(theta - theta0) grad theta. A tip that moves outwards closes the hinge by its distance over the
-/// height of its triangle, grad_1 theta = -|e| n1/|n1|^2; the edge's ends balance force and torque.
-/// Differs from eqs. (52)-(54): no division by sin theta, so flat hinges are regular and concave ones have
-/// their right sign (the printed factor is wrong by the sign of theta).
-inline HingeForces forces(const Bending& b, const HingeGeometry& h, const Vec3& p1, const Vec3& p2, const Vec3& p4) {
+/// F = -k_b sin(theta - theta0) grad theta. A tip that moves outwards closes the hinge by its
+/// distance over the height of its triangle, grad_1 theta = -|e| n1/|n1|^2; the edge's ends balance
+/// force and torque. Differs from eqs. (52)-(54): no division by sin theta, so flat hinges are
+/// regular and concave ones have their right sign (the printed factor is wrong by the sign of
+/// theta).
+inline HingeForces forces(const Bending& b, const HingeGeometry& h, const Vec3& p1, const Vec3& p2,
+                          const Vec3& p4) {
   const double moment = b.k_b * (h.theta.sine * b.cosine0 - h.theta.cosine * b.sine0);
   const Vec3 f1 = (moment * h.length / norm2(h.n1)) * h.n1;
   const Vec3 f4 = (moment * h.length / norm2(h.n2)) * h.n2;

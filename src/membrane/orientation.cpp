@@ -41,7 +41,8 @@ std::vector<char> triangles_to_turn(std::span<const std::array<std::int64_t, 3>>
           turned[link.other] = link.agree ? turned[surface[next]] : !turned[surface[next]];
           surface.push_back(link.other);
         }
-    const auto count = std::count_if(surface.begin(), surface.end(), [&](std::size_t t) { return turned[t]; });
+    const auto count =
+        std::count_if(surface.begin(), surface.end(), [&](std::size_t t) { return turned[t]; });
     if (2 * static_cast<std::size_t>(count) > surface.size())
       for (const std::size_t t : surface) turned[t] = !turned[t];
   }

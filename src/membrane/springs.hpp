@@ -3,13 +3,14 @@
 
 namespace hemomag::membrane {
 
-/// In-plane spring of one edge: worm-like chain attraction and power-law repulsion (Eqs. 15, 17, 21). Both constants follow from
-/// the shear modulus and from zero force at the edge's own rest length.
+/// In-plane spring of one edge: worm-like chain attraction and power-law repulsion (Eqs. 15, 17,
+/// 21). Both constants follow from the shear modulus and from zero force at the edge's own rest
+/// length.
 struct Spring {
-  double l_max = 1;   ///< length at which the chain is fully drawn out
-  double wlc = 0;     ///< k_B T / p
-  double k_p = 0;     ///< coefficient of the repulsive energy k_p / ((m - 1) l^(m-1)), force k_p / l^m
-  double m = 2;       ///< exponent of the repulsive force
+  double l_max = 1;  ///< length at which the chain is fully drawn out
+  double wlc = 0;    ///< k_B T / p
+  double k_p = 0;  ///< coefficient of the repulsive energy k_p / ((m - 1) l^(m-1)), force k_p / l^m
+  double m = 2;    ///< exponent of the repulsive force
 };
 
 namespace wlc {
@@ -20,8 +21,9 @@ inline double energy(double x) { return 0.25 * x * x * (3 - 2 * x) / (1 - x); }
 }  // namespace wlc
 
 /// The spring of rest length x0 l_max whose regular triangular network has the shear modulus mu0:
-/// mu0 = sqrt3 k_BT/(4 p l_max x0) [x0/(2 (1-x0)^3) - 1/(4 (1-x0)^2) + 1/4] + sqrt3 (m+1) k_p/(4 l0^(m+1))   (Eq. 21)
-/// with k_p = (k_BT/p) force(x0) l0^m. The persistence length p = k_BT/wlc is a result, not an input.
+/// mu0 = sqrt3 k_BT/(4 p l_max x0) [x0/(2 (1-x0)^3) - 1/(4 (1-x0)^2) + 1/4] + sqrt3 (m+1) k_p/(4
+/// l0^(m+1))   (Eq. 21) with k_p = (k_BT/p) force(x0) l0^m. The persistence length p = k_BT/wlc is
+/// a result, not an input.
 /// @param x0 in (0, 1), l_max > 0, mu0 > 0, m > 1
 inline Spring make_spring(double x0, double l_max, double mu0, double m) {
   const double l0 = x0 * l_max;

@@ -28,14 +28,17 @@ void CellSums::rebuild(MPI_Comm comm, std::span<const int> cells, int width) {
   for (const auto& [cell, who] : holders)
     for (const int r : who)
       for (const int other : who)
-        if (other != r) answer[static_cast<std::size_t>(r)].insert(answer[static_cast<std::size_t>(r)].end(), {cell, other});
+        if (other != r)
+          answer[static_cast<std::size_t>(r)].insert(answer[static_cast<std::size_t>(r)].end(),
+                                                     {cell, other});
   const auto answered = exchange_by_rank(comm, answer);
 
   std::map<int, std::vector<std::size_t>> shared;
   mine_.assign(cells.size(), 1);
   for (const auto& part : answered)
     for (std::size_t k = 0; k + 1 < part.size(); k += 2) {
-      const auto slot = static_cast<std::size_t>(std::lower_bound(cells.begin(), cells.end(), part[k]) - cells.begin());
+      const auto slot = static_cast<std::size_t>(
+          std::lower_bound(cells.begin(), cells.end(), part[k]) - cells.begin());
       shared[part[k + 1]].push_back(slot);
       if (part[k + 1] < rank_) mine_[slot] = 0;
     }
@@ -51,7 +54,8 @@ void CellSums::rebuild(MPI_Comm comm, std::span<const int> cells, int width) {
 
 void CellSums::add_part(const Partner& partner, std::span<double> values) const {
   for (std::size_t k = 0; k < partner.slots.size(); ++k)
-    for (std::size_t w = 0; w < width_; ++w) values[partner.slots[k] * width_ + w] += partner.receive[k * width_ + w];
+    for (std::size_t w = 0; w < width_; ++w)
+      values[partner.slots[k] * width_ + w] += partner.receive[k * width_ + w];
 }
 
 void CellSums::reduce(std::span<double> values) {
@@ -59,11 +63,13 @@ void CellSums::reduce(std::span<double> values) {
   constexpr int tag = 7101;
   std::size_t n = 0;
   for (auto& p : partners_)
-    MPI_Irecv(p.receive.data(), static_cast<int>(p.receive.size()), MPI_DOUBLE, p.rank, tag, comm_, &requests_[n++]);
+    MPI_Irecv(p.receive.data(), static_cast<int>(p.receive.size()), MPI_DOUBLE, p.rank, tag, comm_,
+              &requests_[n++]);
   for (auto& p : partners_) {
     for (std::size_t k = 0; k < p.slots.size(); ++k)
       std::copy_n(&values[p.slots[k] * width_], width_, &p.send[k * width_]);
-    MPI_Isend(p.send.data(), static_cast<int>(p.send.size()), MPI_DOUBLE, p.rank, tag, comm_, &requests_[n++]);
+    MPI_Isend(p.send.data(), static_cast<int>(p.send.size()), MPI_DOUBLE, p.rank, tag, comm_,
+              &requests_[n++]);
   }
   std::copy(values.begin(), values.end(), own_.begin());
   std::fill(values.begin(), values.end(), 0.0);

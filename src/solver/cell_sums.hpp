@@ -6,11 +6,12 @@
 
 namespace hemomag::solver {
 
-/// Sums over whole cells whose parts lie on several ranks. Who shares which cell is found at reneighbouring, by a
-/// rendezvous; in a step only the ranks that hold a part of the same cell talk, and every one of them adds the
-/// parts in rank order, so that all get the same sum to the last bit. Nothing is allocated in a step.
+/// Sums over whole cells whose parts lie on several ranks. Who shares which cell is found at
+/// reneighbouring, by a rendezvous; in a step only the ranks that hold a part of the same cell
+/// talk, and every one of them adds the parts in rank order, so that all get the same sum to the
+/// last bit. Nothing is allocated in a step.
 class CellSums {
- public:
+public:
   /// @param cells  ids of the cells this rank holds a part of, ascending, each once. Collective.
   void rebuild(MPI_Comm comm, std::span<const int> cells, int width);
 
@@ -20,7 +21,7 @@ class CellSums {
   /// True on exactly one of the ranks that share cell number `slot` of rebuild's list.
   bool mine(std::size_t slot) const { return mine_[slot]; }
 
- private:
+private:
   struct Partner {
     int rank;
     std::vector<std::size_t> slots;  // shared cells, ascending id on both sides

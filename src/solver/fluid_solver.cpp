@@ -30,10 +30,11 @@ FluidSolver::FluidSolver(const Neighbourhood& at, const FluidParameters& paramet
       u_storage_(3 * n_layout_.count), halo_(at_) {
   for (int d = 0; d < 3; ++d) {
     if (at.block.size[d] < n_layout_.halo)
-      throw Error("fluid: a rank holds " + std::to_string(at.block.size[d]) + " nodes along " + "xyz"[d] +
-                  ", but the coupling needs at least " + std::to_string(n_layout_.halo) +
+      throw Error("fluid: a rank holds " + std::to_string(at.block.size[d]) + " nodes along " +
+                  "xyz"[d] + ", but the coupling needs at least " + std::to_string(n_layout_.halo) +
                   " (use fewer ranks or a smaller skin)");
-    force_[d] = force_storage_.data() + static_cast<std::size_t>(d) * n_layout_.count + n_layout_.origin;
+    force_[d] =
+        force_storage_.data() + static_cast<std::size_t>(d) * n_layout_.count + n_layout_.origin;
     u_[d] = u_storage_.data() + static_cast<std::size_t>(d) * n_layout_.count + n_layout_.origin;
   }
   for (std::size_t i = 0; i < 19; ++i)
@@ -55,8 +56,7 @@ void FluidSolver::finish_initialise() {
 }
 
 void FluidSolver::clear_forces() {
-  if (!forces_clear_)
-    std::fill_n(force_storage_.data(), force_storage_.size(), 0.0);
+  if (!forces_clear_) std::fill_n(force_storage_.data(), force_storage_.size(), 0.0);
   forces_clear_ = true;
   node_force_ = plate_share_ = {};
 }
@@ -64,17 +64,19 @@ void FluidSolver::clear_forces() {
 std::ptrdiff_t FluidSolver::spread(std::span<const Vec3> x, const ibm::Selection& selection,
                                    std::span<const Vec3> f) {
   forces_clear_ = false;
-  const ibm::NodeVectorView<double> nodes{force_, n_layout_,
-                                          {double(block().begin[0]), double(block().begin[1]),
-                                           double(block().begin[2])}};
+  const ibm::NodeVectorView<double> nodes{
+      force_,
+      n_layout_,
+      {double(block().begin[0]), double(block().begin[1]), double(block().begin[2])}};
   return ibm::spread(parameters_.kernel, nodes, x, selection, f, simd_);
 }
 
 std::ptrdiff_t FluidSolver::interpolate(std::span<const Vec3> x, const ibm::Selection& selection,
                                         std::span<Vec3> u) const {
-  const ibm::NodeVectorView<const double> nodes{{u_[0], u_[1], u_[2]}, n_layout_,
-                                                {double(block().begin[0]), double(block().begin[1]),
-                                                 double(block().begin[2])}};
+  const ibm::NodeVectorView<const double> nodes{
+      {u_[0], u_[1], u_[2]},
+      n_layout_,
+      {double(block().begin[0]), double(block().begin[1]), double(block().begin[2])}};
   return ibm::interpolate(parameters_.kernel, nodes, x, selection, u, simd_);
 }
 
@@ -95,15 +97,16 @@ void FluidSolver::reduce_forces() {
   for (int axis = 2; axis >= 0; --axis) {
     const NodeBox face = with_halo(axis, h);
     for (const auto& plate : plates_)
-      if (plate.axis == axis) plate_share_ += fluid::fold_mirror_force(plate, force_, n_layout_, face);
+      if (plate.axis == axis)
+        plate_share_ += fluid::fold_mirror_force(plate, force_, n_layout_, face);
     const int n = block().size[axis];
     NodeBox ghost_low = face, ghost_high = face, first = face, last = face;
     ghost_low.lo[axis] = -h, ghost_low.hi[axis] = 0;
     ghost_high.lo[axis] = n, ghost_high.hi[axis] = n + h;
     first.lo[axis] = 0, first.hi[axis] = h;
     last.lo[axis] = n - h, last.hi[axis] = n;
-    halo_.exchange(axis, n_layout_, {force_, ghost_low}, {force_, last}, {force_, ghost_high}, {force_, first},
-                   Combine::add);
+    halo_.exchange(axis, n_layout_, {force_, ghost_low}, {force_, last}, {force_, ghost_high},
+                   {force_, first}, Combine::add);
   }
   for (int d = 0; d < 3; ++d)
     for_each_row(with_halo(0, 0), n_layout_, [&](std::ptrdiff_t row, int n) {
@@ -121,7 +124,8 @@ void FluidSolver::exchange_velocity() {
     ghost_high.lo[axis] = n, ghost_high.hi[axis] = n + h;
     first.lo[axis] = 0, first.hi[axis] = h;
     last.lo[axis] = n - h, last.hi[axis] = n;
-    halo_.exchange(axis, n_layout_, {u_, first}, {u_, ghost_high}, {u_, last}, {u_, ghost_low}, Combine::copy);
+    halo_.exchange(axis, n_layout_, {u_, first}, {u_, ghost_high}, {u_, last}, {u_, ghost_low},
+                   Combine::copy);
     for (const auto& plate : plates_)
       if (plate.axis == axis) fluid::fill_mirror_velocity(plate, u_, n_layout_, face);
   }
@@ -143,10 +147,13 @@ void FluidSolver::send_populations_forward() {
     first.hi[axis] = 1;
     last.lo[axis] = n - 1;
     // A local pass left f_i* in slot opposite(i): what goes up lies in the slots that point down.
-    halo_.exchange(axis, f_layout_, {up, first}, {up, ghost_high}, {down, last}, {down, ghost_low}, Combine::copy);
+    halo_.exchange(axis, f_layout_, {up, first}, {up, ghost_high}, {down, last}, {down, ghost_low},
+                   Combine::copy);
   }
-  for (const auto& plate : plates_)  // after the exchanges, which also pass over edges that belong to the plate
-    plate_momentum_[plate.side == fluid::Side::high] = fluid::bounce_before_shift(plate, f_, f_layout_);
+  for (const auto& plate :
+       plates_)  // after the exchanges, which also pass over edges that belong to the plate
+    plate_momentum_[plate.side == fluid::Side::high] =
+        fluid::bounce_before_shift(plate, f_, f_layout_);
 }
 
 /// After a shift pass: what was written to ghosts goes home, z, then y, then x.
@@ -164,10 +171,12 @@ void FluidSolver::send_populations_home() {
     ghost_high.lo[axis] = n, ghost_high.hi[axis] = n + 1;
     first.hi[axis] = 1;
     last.lo[axis] = n - 1;
-    halo_.exchange(axis, f_layout_, {down, ghost_low}, {down, last}, {up, ghost_high}, {up, first}, Combine::copy);
+    halo_.exchange(axis, f_layout_, {down, ghost_low}, {down, last}, {up, ghost_high}, {up, first},
+                   Combine::copy);
   }
   for (const auto& plate : plates_)
-    plate_momentum_[plate.side == fluid::Side::high] = fluid::bounce_after_shift(plate, f_, f_layout_);
+    plate_momentum_[plate.side == fluid::Side::high] =
+        fluid::bounce_after_shift(plate, f_, f_layout_);
 }
 
 fluid::SweepFields FluidSolver::sweep_fields() {
@@ -192,9 +201,9 @@ void FluidSolver::step() {
   exchange_velocity();
 }
 
-/// Visit the 19 populations of every owned node as they will be collided next: visit(node in x-fastest order, g).
-template <class Visit>
-void FluidSolver::for_each_population(Visit visit) {
+/// Visit the 19 populations of every owned node as they will be collided next: visit(node in
+/// x-fastest order, g).
+template <class Visit> void FluidSolver::for_each_population(Visit visit) {
   const bool shifted = next_ == fluid::Pass::shift;
   if (shifted) {
     const auto booked = plate_momentum_;

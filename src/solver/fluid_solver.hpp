@@ -20,31 +20,36 @@ namespace hemomag::solver {
 struct FluidParameters {
   fluid::Relaxation relaxation{1.0, 3.0 / 16};
   ibm::DeltaKernel kernel = ibm::DeltaKernel::cosine4;
-  int plate_axis = -1;               ///< 0, 1, 2, or -1: no plates
+  int plate_axis = -1;                   ///< 0, 1, 2, or -1: no plates
   std::array<Vec3, 2> plate_velocity{};  ///< low, high
-  double reach_beyond_block = 0;     ///< how far a rank's points may lie outside its block, in nodes
+  double reach_beyond_block = 0;  ///< how far a rank's points may lie outside its block, in nodes
 };
 
-/// The fluid on this rank's block: populations, force and velocity on the nodes, and the order in which they are
-/// communicated. One time step is
+/// The fluid on this rank's block: populations, force and velocity on the nodes, and the order in
+/// which they are communicated. One time step is
 ///     clear_forces(); spread(...) any number of times; step(); interpolate(...)
-/// after step() the velocity is that at the time of the forces, u = (sum e_i f_i + F/2)/rho, on block and halo.
+/// after step() the velocity is that at the time of the forces, u = (sum e_i f_i + F/2)/rho, on
+/// block and halo.
 class FluidSolver {
- public:
+public:
   /// @throws Error when a block is thinner than the coupling halo (too many ranks along an axis)
   FluidSolver(const Neighbourhood& at, const FluidParameters& parameters);
 
-  /// Set density 1 and a velocity field with its gradient; `at` gives them for global node positions.
-  template <class Field>
-  void initialise(Field velocity_and_gradient);
+  /// Set density 1 and a velocity field with its gradient; `at` gives them for global node
+  /// positions.
+  template <class Field> void initialise(Field velocity_and_gradient);
 
   void clear_forces();
-  /// Eqs. 29, 36. Collective: a rank without points calls it with none. @return index of the first point that left the halo, or -1
-  std::ptrdiff_t spread(std::span<const Vec3> x, const ibm::Selection& selection, std::span<const Vec3> f);
-  /// Sum the forces of all ranks, collide, stream, bounce; leaves the new velocity on block and halo.
+  /// Eqs. 29, 36. Collective: a rank without points calls it with none. @return index of the first
+  /// point that left the halo, or -1
+  std::ptrdiff_t spread(std::span<const Vec3> x, const ibm::Selection& selection,
+                        std::span<const Vec3> f);
+  /// Sum the forces of all ranks, collide, stream, bounce; leaves the new velocity on block and
+  /// halo.
   void step();
   /// Eqs. 32, 34. @return index of the first point that left the halo, or -1
-  std::ptrdiff_t interpolate(std::span<const Vec3> x, const ibm::Selection& selection, std::span<Vec3> u) const;
+  std::ptrdiff_t interpolate(std::span<const Vec3> x, const ibm::Selection& selection,
+                             std::span<Vec3> u) const;
 
   const lattice::Block& block() const { return at_.block; }
   const FluidParameters& parameters() const { return parameters_; }
@@ -62,7 +67,8 @@ class FluidSolver {
   /// Mass of the owned nodes of this rank, less that of the fluid at rest at density one.
   double excess_mass();
   double mass() { return static_cast<double>(block().owned()) + excess_mass(); }
-  /// Sum of e_i f_i over the owned nodes of this rank, after the last step's forces have acted in full.
+  /// Sum of e_i f_i over the owned nodes of this rank, after the last step's forces have acted in
+  /// full.
   Vec3 momentum();
   /// Force spread on nodes of this rank in the last step (body force left out).
   Vec3 node_force() const { return node_force_; }
@@ -71,15 +77,14 @@ class FluidSolver {
   /// Momentum given to the low and high plate by bounce-back in the last step, on this rank.
   const std::array<Vec3, 2>& plate_momentum() const { return plate_momentum_; }
 
- private:
+private:
   void set_node(int x, int y, int z, const std::array<double, 19>& g);
   void finish_initialise();
   void reduce_forces();
   void send_populations_forward();
   void send_populations_home();
   void exchange_velocity();
-  template <class Visit>
-  void for_each_population(Visit visit);
+  template <class Visit> void for_each_population(Visit visit);
   fluid::SweepFields sweep_fields();
   lattice::NodeBox with_halo(int axes_done, int halo) const;
 

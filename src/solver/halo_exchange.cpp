@@ -46,16 +46,18 @@ void HaloExchange::exchange(int axis, const lattice::NodeLayout& layout, const S
   int n = 0;
   for (int side = 0; side < 2; ++side) {
     if (partner[side] == MPI_PROC_NULL) continue;
-    if (receive_[side].size() < values(*incoming[side])) receive_[side].resize(values(*incoming[side]));
-    // What comes from the low side was sent towards high, and the other way round: the tag is the sense.
-    MPI_Irecv(receive_[side].data(), static_cast<int>(values(*incoming[side])), MPI_DOUBLE, partner[side],
-              1 - side, at_.comm, &requests[n++]);
+    if (receive_[side].size() < values(*incoming[side]))
+      receive_[side].resize(values(*incoming[side]));
+    // What comes from the low side was sent towards high, and the other way round: the tag is the
+    // sense.
+    MPI_Irecv(receive_[side].data(), static_cast<int>(values(*incoming[side])), MPI_DOUBLE,
+              partner[side], 1 - side, at_.comm, &requests[n++]);
   }
   for (int side = 0; side < 2; ++side) {
     if (partner[side] == MPI_PROC_NULL) continue;
     pack(*outgoing[side], layout, send_[side]);
-    MPI_Isend(send_[side].data(), static_cast<int>(values(*outgoing[side])), MPI_DOUBLE, partner[side], side,
-              at_.comm, &requests[n++]);
+    MPI_Isend(send_[side].data(), static_cast<int>(values(*outgoing[side])), MPI_DOUBLE,
+              partner[side], side, at_.comm, &requests[n++]);
   }
   MPI_Waitall(n, requests, MPI_STATUSES_IGNORE);
   // Low before high, always: sums come out the same however the messages arrived.

@@ -26,7 +26,8 @@ TEST(Worm, HoldsTogetherJustUnderTheCardsLimit) {
   double stable = 1e-6, unstable = 1e-3;
   ASSERT_FALSE(refused(stable));
   ASSERT_TRUE(refused(unstable));
-  for (int k = 0; k < 20; ++k) (refused((stable + unstable) / 2) ? unstable : stable) = (stable + unstable) / 2;
+  for (int k = 0; k < 20; ++k)
+    (refused((stable + unstable) / 2) ? unstable : stable) = (stable + unstable) / 2;
   c.carriers[0].stretching = 0.95 * stable;
 
   const auto system = case_::place(c);
@@ -38,7 +39,8 @@ TEST(Worm, HoldsTogetherJustUnderTheCardsLimit) {
       shortest = std::min(shortest, l);
       longest = std::max(longest, l);
     }
-  std::printf("bonds of 0.5 nodes with k = %.1f uN/m after 1,000 steps: %.3f to %.3f\n", c.carriers[0].stretching * 1e6, shortest, longest);
+  std::printf("bonds of 0.5 nodes with k = %.1f uN/m after 1,000 steps: %.3f to %.3f\n",
+              c.carriers[0].stretching * 1e6, shortest, longest);
   EXPECT_GT(shortest, 0.5 * 0.8);
   EXPECT_LT(longest, 0.5 * 1.2);
 }

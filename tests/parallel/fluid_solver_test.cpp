@@ -32,27 +32,35 @@ Points random_points(std::array<int, 3> n, int count) {
   return p;
 }
 
-double cosine(double r) { return std::fabs(r) < 2 ? 0.25 * (1 + std::cos(std::numbers::pi * r / 2)) : 0; }
+double cosine(double r) {
+  return std::fabs(r) < 2 ? 0.25 * (1 + std::cos(std::numbers::pi * r / 2)) : 0;
+}
 
-/// Visit the nodes a point touches in the reference: visit(node, weight, 0 or the plate's velocity).
-template <class Visit>
-void stencil(const ReferenceFluid& fluid, const Vec3& x, Visit visit) {
+/// Visit the nodes a point touches in the reference: visit(node, weight, 0 or the plate's
+/// velocity).
+template <class Visit> void stencil(const ReferenceFluid& fluid, const Vec3& x, Visit visit) {
   for (int k = -2; k < 3; ++k)
     for (int j = -2; j < 3; ++j)
       for (int i = -2; i < 3; ++i) {
-        const int nx = static_cast<int>(std::floor(x.x)) + i, ny = static_cast<int>(std::floor(x.y)) + j,
+        const int nx = static_cast<int>(std::floor(x.x)) + i,
+                  ny = static_cast<int>(std::floor(x.y)) + j,
                   nz = static_cast<int>(std::floor(x.z)) + k;
-        const double weight = cosine(x.x - nx - 0.5) * cosine(x.y - ny - 0.5) * cosine(x.z - nz - 0.5);
+        const double weight =
+            cosine(x.x - nx - 0.5) * cosine(x.y - ny - 0.5) * cosine(x.z - nz - 0.5);
         if (weight == 0) continue;
         const bool below = fluid.plates && nz < 0, above = fluid.plates && nz >= fluid.size[2];
         const int mirror = below ? -1 - nz : above ? 2 * fluid.size[2] - 1 - nz : nz;
-        visit(fluid.index(nx, ny, mirror), weight, below ? &fluid.lower : above ? &fluid.upper : nullptr);
+        visit(fluid.index(nx, ny, mirror), weight,
+              below   ? &fluid.lower
+              : above ? &fluid.upper
+                      : nullptr);
       }
 }
 
 std::pair<Vec3, hemomag::fluid::VelocityGradient> wavy(const Vec3& x, std::array<int, 3> n) {
   const double tau = 2 * std::numbers::pi;
-  return {{0.02 * std::sin(tau * x.y / n[1]), 0.03 * std::cos(tau * x.z / n[2]), 0.01 * std::sin(tau * x.x / n[0])},
+  return {{0.02 * std::sin(tau * x.y / n[1]), 0.03 * std::cos(tau * x.z / n[2]),
+           0.01 * std::sin(tau * x.x / n[0])},
           {}};
 }
 
@@ -107,7 +115,8 @@ void compare(std::array<int, 3> n, bool plates, double tau) {
       Vec3 expected;
       stencil(reference, points.x[k], [&](std::size_t node, double weight, const auto* plate) {
         for (std::size_t d = 0; d < 3; ++d)
-          expected[d] += weight * (plate ? 2 * (*plate)[d] - reference.u[node][d] : reference.u[node][d]);
+          expected[d] +=
+              weight * (plate ? 2 * (*plate)[d] - reference.u[node][d] : reference.u[node][d]);
       });
       largest = std::max(largest, norm(u[k] - expected));
     }
@@ -140,7 +149,9 @@ TEST(FluidSolver, ConservesMassAndBooksMomentum) {
       mine[k] = 1;
       for (std::size_t d = 0; d < 3; ++d) {
         const int node = static_cast<int>(std::floor(points.x[k][d]));
-        if (node < solver.block().begin[d] || node >= solver.block().begin[d] + solver.block().size[d]) mine[k] = 0;
+        if (node < solver.block().begin[d] ||
+            node >= solver.block().begin[d] + solver.block().size[d])
+          mine[k] = 0;
       }
       total += points.f[k];
     }
@@ -152,10 +163,13 @@ TEST(FluidSolver, ConservesMassAndBooksMomentum) {
       solver.step();
       const Vec3 change = solver.momentum() - before;
       for (std::size_t d = 0; d < 3; ++d) {
-        const double spread = hemomag::test::sum_over_ranks(solver.node_force()[d] + solver.plate_share()[d]);
-        EXPECT_NEAR(spread, total[d], 1e-12 * 60e-3) << "force on nodes + plates' share = force spread";
+        const double spread =
+            hemomag::test::sum_over_ranks(solver.node_force()[d] + solver.plate_share()[d]);
+        EXPECT_NEAR(spread, total[d], 1e-12 * 60e-3)
+            << "force on nodes + plates' share = force spread";
         if (!plates) {
-          EXPECT_NEAR(hemomag::test::sum_over_ranks(change[d]), total[d], 1e-12) << "periodic fluid takes all";
+          EXPECT_NEAR(hemomag::test::sum_over_ranks(change[d]), total[d], 1e-12)
+              << "periodic fluid takes all";
         }
       }
     }

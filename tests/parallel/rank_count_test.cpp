@@ -1,4 +1,5 @@
-// The same small case (cells across rank and periodic borders, carriers, field) on 1, 2 and 4 ranks.
+// The same small case (cells across rank and periodic borders, carriers, field) on 1, 2 and 4
+// ranks.
 #include <algorithm>
 #include <cstdio>
 
@@ -32,13 +33,18 @@ TEST(RankCount, ResultsAgreeAfter200Steps) {
   ASSERT_EQ(states[0].x.size(), 2u * 642 + 12);
   // The case must cross the borders it is about.
   bool crosses = false;
-  for (std::size_t k = 0; k < 1284; ++k) crosses = crosses || states[0].x[k].y < 0 || states[0].x[k].y > 28 || states[0].x[k].x < 0 || states[0].x[k].x > 18;
+  for (std::size_t k = 0; k < 1284; ++k)
+    crosses = crosses || states[0].x[k].y < 0 || states[0].x[k].y > 28 || states[0].x[k].x < 0 ||
+              states[0].x[k].x > 18;
   EXPECT_TRUE(crosses) << "no cell lies across a periodic border";
   for (std::size_t s = 1; s < 3; ++s) {
     double worst = 0;
-    for (std::size_t k = 0; k < states[0].x.size(); ++k) worst = std::max(worst, norm(states[s].x[k] - states[0].x[k]));
+    for (std::size_t k = 0; k < states[0].x.size(); ++k)
+      worst = std::max(worst, norm(states[s].x[k] - states[0].x[k]));
     const double scale = 28;  // the box, in nodes
-    std::printf("%d ranks against 1: largest difference of a position %.2e of the box, tolerance 1e-10\n", s == 1 ? 2 : 4, worst / scale);
+    std::printf(
+        "%d ranks against 1: largest difference of a position %.2e of the box, tolerance 1e-10\n",
+        s == 1 ? 2 : 4, worst / scale);
     EXPECT_LT(worst / scale, 1e-10);
   }
 }

@@ -24,7 +24,8 @@ TEST(Dipoles, ForceIsMinusTheEnergyGradientAtFixedMoments) {
     const Vec3 mi = random.in_cube(1), mj = random.in_cube(1);
     const std::vector<Vec3> r{random.in_cube(1) + Vec3{1.5, 0, 0}};
     const auto pair = magnetic::dipole_dipole(mi, mj, r[0]);
-    worst = std::max(worst, test::gradient_error(r, std::vector<Vec3>{pair.on_j}, 0.5, [&](const auto& y) {
+    worst = std::max(worst,
+                     test::gradient_error(r, std::vector<Vec3>{pair.on_j}, 0.5, [&](const auto& y) {
                        return magnetic::dipole_dipole(mi, mj, y[0]).energy;
                      }));
     const Vec3 back = magnetic::dipole_dipole(mj, mi, -r[0]).on_j;
@@ -51,8 +52,8 @@ TEST(Dipoles, ContactPullIsAnEighthOfF0) {
 }
 
 TEST(Dipoles, ReproduceTheTabulatedForces) {
-  // a = 125 nm, f = 0.6, chi = 0.4, B0 = 0.1 T, H = 24 um: 0.651 pN at the wall, 3.75 pN at contact. In SI with
-  // lengths in metres and B / sqrt(mu*) the formulas with mu* = 1 give newtons.
+  // a = 125 nm, f = 0.6, chi = 0.4, B0 = 0.1 T, H = 24 um: 0.651 pN at the wall, 3.75 pN at
+  // contact. In SI with lengths in metres and B / sqrt(mu*) the formulas with mu* = 1 give newtons.
   const double a = 125e-9, chi_volume = 0.4 * 0.6 * 4 / 3 * std::numbers::pi * a * a * a, H = 24e-6;
   const double b = 0.1 / std::sqrt(mu);
   const magnetic::AxialGradient field{2, b / H, H};
@@ -68,15 +69,18 @@ TEST(Repulsion, ForcesAreMinusTheEnergyGradient) {
   for (int k = 0; k < 2000; ++k) {
     Vec3 e = random.in_cube(1);
     e *= 1 / norm(e);
-    const std::vector<Vec3> near{random.uniform(0.9, 1.2) * e}, tight{random.uniform(1.03, 1.045) * e};
+    const std::vector<Vec3> near{random.uniform(0.9, 1.2) * e},
+        tight{random.uniform(1.03, 1.045) * e};
     const auto s = magnetic::soft_repulsion(2.0, 30, 1.0, near[0]);
-    soft = std::max(soft, test::gradient_error(near, std::vector<Vec3>{s.on_j}, 0.05, [](const auto& y) {
+    soft = std::max(soft,
+                    test::gradient_error(near, std::vector<Vec3>{s.on_j}, 0.05, [](const auto& y) {
                       return magnetic::soft_repulsion(2.0, 30, 1.0, y[0]).energy;
                     }));
     const auto p = magnetic::paper_repulsion(0.1, 0.05, 1.0, tight[0]);
-    paper = std::max(paper, test::gradient_error(tight, std::vector<Vec3>{p.on_j}, 0.01, [](const auto& y) {
-                       return magnetic::paper_repulsion(0.1, 0.05, 1.0, y[0]).energy;
-                     }));
+    paper = std::max(
+        paper, test::gradient_error(tight, std::vector<Vec3>{p.on_j}, 0.01, [](const auto& y) {
+          return magnetic::paper_repulsion(0.1, 0.05, 1.0, y[0]).energy;
+        }));
   }
   EXPECT_LT(soft, gradient_tolerance);
   EXPECT_LT(paper, gradient_tolerance);
@@ -84,7 +88,8 @@ TEST(Repulsion, ForcesAreMinusTheEnergyGradient) {
 
 TEST(Field, GradientsEqualFiniteDifferences) {
   const magnetic::Field fields[] = {magnetic::NoField{}, magnetic::UniformField{{1, 2, 3}},
-                                    magnetic::AxialGradient{0, 0.3, 4}, magnetic::AxialGradient{2, -0.7, 20}};
+                                    magnetic::AxialGradient{0, 0.3, 4},
+                                    magnetic::AxialGradient{2, -0.7, 20}};
   Random random(7);
   for (const auto& field : fields)
     for (int k = 0; k < 100; ++k) {
@@ -93,7 +98,8 @@ TEST(Field, GradientsEqualFiniteDifferences) {
       for (std::size_t d = 0; d < 3; ++d) {
         Vec3 step;
         step[d] = 1e-3;
-        const Vec3 slope = (magnetic::evaluate(field, x + step).B - magnetic::evaluate(field, x - step).B) / 2e-3;
+        const Vec3 slope =
+            (magnetic::evaluate(field, x + step).B - magnetic::evaluate(field, x - step).B) / 2e-3;
         EXPECT_LT(norm(slope - at.gradient[d]), 1e-8);
       }
     }
@@ -106,10 +112,13 @@ TEST(Field, ForceIsMinusTheGradientOfTheInducedEnergy) {
     const std::vector<Vec3> x{random.in_cube(5)};
     const auto at = field(x[0]);
     const Vec3 F = magnetic::gradient_force(magnetic::linear_moment(0.1, at.B), at);
-    EXPECT_LT(test::gradient_error(x, std::vector<Vec3>{F}, 1, [&](const auto& y) {
-                const auto B = field(y[0]).B;
-                return magnetic::induced_energy(magnetic::linear_moment(0.1, B), B);
-              }), gradient_tolerance);
+    EXPECT_LT(test::gradient_error(x, std::vector<Vec3>{F}, 1,
+                                   [&](const auto& y) {
+                                     const auto B = field(y[0]).B;
+                                     return magnetic::induced_energy(
+                                         magnetic::linear_moment(0.1, B), B);
+                                   }),
+              gradient_tolerance);
   }
 }
 
@@ -121,8 +130,10 @@ TEST(Contact, ForcesAreMinusTheEnergyGradient) {
     const double slope = (contact::energy(morse, r + h) - contact::energy(morse, r - h)) / (2 * h);
     EXPECT_NEAR(contact::force(morse, r), -slope, gradient_tolerance);
     if (r > contact::lj_cutoff_over_sigma - h) continue;
-    const double lj_slope = (contact::energy(lj, (r + h) * (r + h)) - contact::energy(lj, (r - h) * (r - h))) / (2 * h);
-    EXPECT_NEAR(contact::force_over_r(lj, r * r) * r, -lj_slope, gradient_tolerance * (1 + std::fabs(lj_slope)));
+    const double lj_slope =
+        (contact::energy(lj, (r + h) * (r + h)) - contact::energy(lj, (r - h) * (r - h))) / (2 * h);
+    EXPECT_NEAR(contact::force_over_r(lj, r * r) * r, -lj_slope,
+                gradient_tolerance * (1 + std::fabs(lj_slope)));
   }
   const double cut = contact::lj_cutoff_over_sigma * lj.sigma;
   EXPECT_NEAR(contact::energy(lj, cut * cut), 0, 1e-15) << "shifted to zero at the cut";

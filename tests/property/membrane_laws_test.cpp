@@ -13,18 +13,20 @@ namespace {
 using namespace hemomag;
 using test::Random;
 
-constexpr double gradient_tolerance = 1e-7;  // relative to the largest force; differences are good to 1e-9
-constexpr double round_off = 1e-13;          // sums of a few terms of the forces' size
+constexpr double gradient_tolerance =
+    1e-7;                            // relative to the largest force; differences are good to 1e-9
+constexpr double round_off = 1e-13;  // sums of a few terms of the forces' size
 constexpr int states = 10000;
 
 TEST(Spring, ForceIsMinusTheEnergyGradient) {
   Random random(1);
   double worst = 0;
   for (int k = 0; k < states; ++k) {
-    const auto spring =
-        membrane::make_spring(random.uniform(0.3, 0.6), random.uniform(0.5, 3), random.uniform(0.001, 0.1), random.uniform(1.5, 4));
+    const auto spring = membrane::make_spring(random.uniform(0.3, 0.6), random.uniform(0.5, 3),
+                                              random.uniform(0.001, 0.1), random.uniform(1.5, 4));
     const double l = spring.l_max * random.uniform(0.15, 0.9), h = 6e-6 * l;
-    const double slope = (membrane::energy(spring, l + h) - membrane::energy(spring, l - h)) / (2 * h);
+    const double slope =
+        (membrane::energy(spring, l + h) - membrane::energy(spring, l - h)) / (2 * h);
     const double scale = std::fabs(membrane::tension(spring, l)) + spring.wlc;
     worst = std::max(worst, std::fabs(slope - membrane::tension(spring, l)) / scale);
   }
@@ -45,7 +47,8 @@ TEST(Spring, IsForceFreeAtRestWithTheAskedShearModulus) {
 }
 
 TEST(Spring, MatchesTheTabulatedPersistenceLength) {
-  // mesh of 642 vertices: l0 = 0.5031 um, x0 = 1/2.2, mu0 = 6.3 uN/m: p = 2.231 nm, k_p = 4.907e-25 N m2
+  // mesh of 642 vertices: l0 = 0.5031 um, x0 = 1/2.2, mu0 = 6.3 uN/m: p = 2.231 nm, k_p = 4.907e-25
+  // N m2
   const auto s = membrane::make_spring(1 / 2.2, 0.5031e-6 * 2.2, 6.3e-6, 2);
   EXPECT_NEAR(4.14e-21 / s.wlc, 2.231e-9, 0.002e-9);
   EXPECT_NEAR(s.k_p, 4.907e-25, 0.005e-25);
@@ -59,13 +62,17 @@ TEST(Area, ForceIsMinusTheEnergyGradient) {
     const double A0 = random.uniform(0.2, 1), stiffness = random.uniform(0.1, 2);
     const Vec3 n2 = membrane::twice_area_vector(x[0], x[1], x[2]);
     const double A = 0.5 * norm(n2);
-    if (A < 0.1 || std::fabs(A - A0) < 1e-2) continue;  // slivers, and states where the force itself vanishes
-    const auto F = membrane::area_forces(x[0], x[1], x[2], n2 / (2 * A), membrane::restoring(stiffness, A, A0));
+    if (A < 0.1 || std::fabs(A - A0) < 1e-2)
+      continue;  // slivers, and states where the force itself vanishes
+    const auto F = membrane::area_forces(x[0], x[1], x[2], n2 / (2 * A),
+                                         membrane::restoring(stiffness, A, A0));
     const std::vector<Vec3> f{F.a, F.b, F.c};
     net = std::max(net, norm(F.a + F.b + F.c) / (1e-300 + norm(F.a)));
-    worst = std::max(worst, test::gradient_error(x, f, 0.1, [&](const auto& y) {
-                       return membrane::quadratic(stiffness, 0.5 * norm(membrane::twice_area_vector(y[0], y[1], y[2])), A0);
-                     }));
+    worst =
+        std::max(worst, test::gradient_error(x, f, 0.1, [&](const auto& y) {
+                   return membrane::quadratic(
+                       stiffness, 0.5 * norm(membrane::twice_area_vector(y[0], y[1], y[2])), A0);
+                 }));
   }
   EXPECT_LT(worst, gradient_tolerance);
   EXPECT_LT(net, 1e-11) << "slivers lose digits in their normals";
@@ -84,7 +91,9 @@ struct Octahedron {
   static double volume(const std::vector<Vec3>& x) {
     double v = 0;
     for (const auto& t : triangle)
-      v += membrane::volume_under(x[static_cast<std::size_t>(t[0])], x[static_cast<std::size_t>(t[1])], x[static_cast<std::size_t>(t[2])]);
+      v += membrane::volume_under(x[static_cast<std::size_t>(t[0])],
+                                  x[static_cast<std::size_t>(t[1])],
+                                  x[static_cast<std::size_t>(t[2])]);
     return v;
   }
 };
@@ -98,9 +107,11 @@ TEST(Volume, ForceIsMinusTheEnergyGradientAndFreeOfNetForceAndTorque) {
     ASSERT_GT(V, 0);
     std::vector<Vec3> f(6);
     for (const auto& t : Octahedron::triangle) {
-      const auto F = membrane::volume_forces(
-          membrane::twice_area_vector(o.x[static_cast<std::size_t>(t[0])], o.x[static_cast<std::size_t>(t[1])], o.x[static_cast<std::size_t>(t[2])]),
-          membrane::restoring(1, V, V0));
+      const auto F =
+          membrane::volume_forces(membrane::twice_area_vector(o.x[static_cast<std::size_t>(t[0])],
+                                                              o.x[static_cast<std::size_t>(t[1])],
+                                                              o.x[static_cast<std::size_t>(t[2])]),
+                                  membrane::restoring(1, V, V0));
       f[static_cast<std::size_t>(t[0])] += F.a;
       f[static_cast<std::size_t>(t[1])] += F.b;
       f[static_cast<std::size_t>(t[2])] += F.c;
@@ -128,7 +139,8 @@ TEST(Bending, ForceIsMinusTheEnergyGradientFlatAndConcaveHingesIncluded) {
   Random random(4);
   double worst = 0, net = 0, turn = 0;
   for (int k = 0; k < states; ++k) {
-    // Hinge with its edge along y, opened by `theta`: flat and both senses, with a little noise on every corner.
+    // Hinge with its edge along y, opened by `theta`: flat and both senses, with a little noise on
+    // every corner.
     const double theta = k % 10 == 0 ? 0.0 : random.uniform(-2.0, 2.0);
     std::vector<Vec3> x{{-std::cos(theta / 2), random.uniform(0.2, 0.8), -std::sin(theta / 2)},
                         {0, 0, 0},
@@ -146,9 +158,10 @@ TEST(Bending, ForceIsMinusTheEnergyGradientFlatAndConcaveHingesIncluded) {
     net = std::max(net, norm(force));
     turn = std::max(turn, norm(torque));
     if (std::fabs(hinge.theta.angle() - theta0) < 5e-2) continue;  // the force itself vanishes
-    worst = std::max(worst, test::gradient_error(x, f, 0.1, [&](const auto& y) {
-                       return membrane::energy(law, membrane::make_hinge(y[0], y[1], y[2], y[3]).theta);
-                     }));
+    worst =
+        std::max(worst, test::gradient_error(x, f, 0.1, [&](const auto& y) {
+                   return membrane::energy(law, membrane::make_hinge(y[0], y[1], y[2], y[3]).theta);
+                 }));
   }
   EXPECT_LT(worst, gradient_tolerance);
   EXPECT_LT(net, round_off * 10);
@@ -157,7 +170,8 @@ TEST(Bending, ForceIsMinusTheEnergyGradientFlatAndConcaveHingesIncluded) {
 
 TEST(Bending, ConvexHingesArePositive) {
   const double theta = 0.7;
-  const Vec3 p1{-std::cos(theta / 2), 0.5, -std::sin(theta / 2)}, p4{std::cos(theta / 2), 0.5, -std::sin(theta / 2)};
+  const Vec3 p1{-std::cos(theta / 2), 0.5, -std::sin(theta / 2)},
+      p4{std::cos(theta / 2), 0.5, -std::sin(theta / 2)};
   EXPECT_NEAR(membrane::make_hinge(p1, {0, 0, 0}, {0, 1, 0}, p4).theta.angle(), theta, 1e-14);
 }
 

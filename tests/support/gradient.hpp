@@ -11,8 +11,7 @@
 namespace hemomag::test {
 
 /// Five-point central difference of f at 0, step eps^(1/5) times `length`.
-template <class Function>
-double slope_at_zero(double length, Function f) {
+template <class Function> double slope_at_zero(double length, Function f) {
   const double h = std::pow(std::numeric_limits<double>::epsilon(), 0.2) * length;
   return (8 * (f(h) - f(-h)) - (f(2 * h) - f(-2 * h))) / (12 * h);
 }
@@ -39,7 +38,7 @@ double gradient_error(std::vector<Vec3> x, std::span<const Vec3> F, double lengt
 
 /// Uniform numbers and vectors, the same on every machine.
 class Random {
- public:
+public:
   explicit Random(std::uint64_t seed) : bits_(seed) {}
   double uniform(double lo = 0, double hi = 1) {
     return lo + (hi - lo) * static_cast<double>(bits_() >> 11) * 0x1p-53;
@@ -49,7 +48,7 @@ class Random {
     return {x, y, z};
   }
 
- private:
+private:
   std::mt19937_64 bits_;
 };
 

@@ -27,7 +27,8 @@ inline solver::Neighbourhood neighbourhood(std::array<int, 3> nodes, int plate_a
       other[d] += side == 0 ? -1 : 1;
       const bool outside = other[d] < 0 || other[d] >= grid[d];
       other[d] = (other[d] + grid[d]) % grid[d];
-      here.neighbour[d][side] = outside && d == plate_axis ? MPI_PROC_NULL : rank_of(other[0], other[1], other[2]);
+      here.neighbour[d][side] =
+          outside && d == plate_axis ? MPI_PROC_NULL : rank_of(other[0], other[1], other[2]);
     }
   }
   return here;

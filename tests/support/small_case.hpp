@@ -56,7 +56,8 @@ State run_case_on(MPI_Comm comm, const case_::Case& c, const case_::System& syst
   MPI_Comm_rank(comm, &rank);
   int id = static_cast<int>(getpid());
   MPI_Bcast(&id, 1, MPI_INT, 0, comm);
-  const auto directory = std::filesystem::temp_directory_path() / ("hemomag_case_" + std::to_string(id));
+  const auto directory =
+      std::filesystem::temp_directory_path() / ("hemomag_case_" + std::to_string(id));
   if (rank == 0) {
     std::filesystem::create_directories(directory);
     std::ofstream(directory / "cells.data") << case_::cells_data(c, system);
@@ -67,7 +68,8 @@ State run_case_on(MPI_Comm comm, const case_::Case& c, const case_::System& syst
     lammps::Host host({"-screen", "none", "-log", "none"}, comm);
     std::string script = case_::lammps_script(c, system);
     const std::string name = "read_data cells.data";
-    script.replace(script.find(name), name.size(), "read_data " + (directory / "cells.data").string());
+    script.replace(script.find(name), name.size(),
+                   "read_data " + (directory / "cells.data").string());
     std::string line;
     for (const char ch : script) {
       if (ch != '\n') {

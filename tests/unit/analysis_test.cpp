@@ -31,10 +31,11 @@ TEST(Margination, IsEquation46) {
 double winding(const Vec3& p, const membrane::TriangleMesh& mesh, const Vec3& shift) {
   double sum = 0;
   for (const auto& t : mesh.triangles) {
-    const Vec3 a = mesh.x[static_cast<std::size_t>(t[0])] + shift - p, b = mesh.x[static_cast<std::size_t>(t[1])] + shift - p,
+    const Vec3 a = mesh.x[static_cast<std::size_t>(t[0])] + shift - p,
+               b = mesh.x[static_cast<std::size_t>(t[1])] + shift - p,
                c = mesh.x[static_cast<std::size_t>(t[2])] + shift - p;
-    sum += 2 * std::atan2(dot(a, cross(b, c)),
-                          norm(a) * norm(b) * norm(c) + dot(a, b) * norm(c) + dot(b, c) * norm(a) + dot(c, a) * norm(b));
+    sum += 2 * std::atan2(dot(a, cross(b, c)), norm(a) * norm(b) * norm(c) + dot(a, b) * norm(c) +
+                                                   dot(b, c) * norm(a) + dot(c, a) * norm(b));
   }
   return sum / (4 * std::numbers::pi);
 }
@@ -64,7 +65,8 @@ TEST(Inside, EqualsTheSolidAngleAcrossPeriodicBorders) {
           for (int j = -1; j <= 1; ++j)
             for (int l = periodic_z ? -1 : 0; l <= (periodic_z ? 1 : 0); ++l)
               expected += winding(points[k], mesh, centre + Vec3{20. * i, 20. * j, 20. * l});
-        EXPECT_EQ(times[k], std::lround(expected)) << points[k].x << " " << points[k].y << " " << points[k].z;
+        EXPECT_EQ(times[k], std::lround(expected))
+            << points[k].x << " " << points[k].y << " " << points[k].z;
         inside += times[k];
       }
       EXPECT_GT(inside, 5);
@@ -74,11 +76,15 @@ TEST(Inside, EqualsTheSolidAngleAcrossPeriodicBorders) {
 TEST(Inside, ARayThroughAVertexOrEdgeCountsOnce) {
   // A cube whose corners lie exactly above and below the points.
   std::vector<analysis::SurfaceTriangle> cube;
-  const auto corner = [](int k) { return Vec3{1. + 2 * (k & 1), 1. + (k & 2), 1. + 2 * (k >> 2 & 1)}; };
+  const auto corner = [](int k) {
+    return Vec3{1. + 2 * (k & 1), 1. + (k & 2), 1. + 2 * (k >> 2 & 1)};
+  };
   const int faces[12][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
                             {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-  for (const auto& f : faces) cube.push_back({{corner(f[0]), corner(f[1]), corner(f[2])}, {f[0] + 1, f[1] + 1, f[2] + 1}});
-  const std::vector<Vec3> points{{2, 2, 2}, {2, 2, 0.5}, {2, 2, 3.5}, {1.5, 2.5, 2}};  // the first three lie on the diagonals
+  for (const auto& f : faces)
+    cube.push_back({{corner(f[0]), corner(f[1]), corner(f[2])}, {f[0] + 1, f[1] + 1, f[2] + 1}});
+  const std::vector<Vec3> points{
+      {2, 2, 2}, {2, 2, 0.5}, {2, 2, 3.5}, {1.5, 2.5, 2}};  // the first three lie on the diagonals
   const auto times = analysis::enclosure(points, cube, {{10, 10, 10}, false});
   EXPECT_EQ(times, (std::vector<int>{1, 0, 0, 1}));
 }

@@ -33,8 +33,9 @@ TEST(Units, ConvertToSI) {
 }
 
 TEST(Units, RefuseWhatIsNoQuantity) {
-  for (const char* text : {"", "um", "27", "2-3 um", "27 um since 2000", "27 um @ 3", "27 furlongz", "27 s", "nan um", "inf um", "27 um 3", "--2 um",
-                           "27 um;", "0x10 um", "1e400 um"})
+  for (const char* text :
+       {"", "um", "27", "2-3 um", "27 um since 2000", "27 um @ 3", "27 furlongz", "27 s", "nan um",
+        "inf um", "27 um 3", "--2 um", "27 um;", "0x10 um", "1e400 um"})
     EXPECT_THROW(quantity(text, dimension::length), hemomag::Error) << text;
   EXPECT_THROW(quantity("200 rpm", dimension::rate), hemomag::Error);
 }
@@ -43,7 +44,10 @@ TEST(Units, RefuseWhatIsNoQuantity) {
 std::string reference_row(const Key& key) {
   const std::string table = key.table, name = (table.empty() ? "" : table + ".") + key.name;
   const std::string fallback = key.fallback;
-  return "| `" + name + "` | " + accepted(key) + " | " + (fallback == "required" ? "required" : fallback.empty() ? "none" : "`" + fallback + "`") +
+  return "| `" + name + "` | " + accepted(key) + " | " +
+         (fallback == "required" ? "required"
+          : fallback.empty()     ? "none"
+                                 : "`" + fallback + "`") +
          " | " + key.help + " |";
 }
 
@@ -52,7 +56,9 @@ TEST(Keys, TheReferencePageListsThemAll) {
   std::stringstream page;
   page << file.rdbuf();
   for (const Key& key : keys())
-    EXPECT_NE(page.str().find(reference_row(key)), std::string::npos) << "docs/case_file.md lacks the row\n" << reference_row(key);
+    EXPECT_NE(page.str().find(reference_row(key)), std::string::npos)
+        << "docs/case_file.md lacks the row\n"
+        << reference_row(key);
 }
 
 TEST(Keys, NearestNameIsFound) {
@@ -128,7 +134,8 @@ TEST(Card, NamesTheLargestStableWormBond) {
   c.carriers[0].count = 1;
   const Card stiff = make_card(c, {});
   EXPECT_EQ(line(stiff, "worm bond stability").verdict, Verdict::refused);
-  EXPECT_EQ(line(stiff, "worm bond stability").value, "8 k dt/Gamma = 9.91") << "Table 1's constant at this time step";
+  EXPECT_EQ(line(stiff, "worm bond stability").value, "8 k dt/Gamma = 9.91")
+      << "Table 1's constant at this time step";
   c.carriers[0].stretching = 2 * bare_friction(c, c.carriers[0]) / (8 * lattice_units(c).dt) * 0.99;
   EXPECT_NE(line(make_card(c, {}), "worm bond stability").verdict, Verdict::refused);
 }
@@ -147,7 +154,8 @@ TEST(Examples, AreAcceptedAndNotRefused) {
     const Case c = read_case(std::string(HEMOMAG_SOURCE_DIR "/examples/") + name + ".toml", {});
     EXPECT_FALSE(make_card(c, cell_models(c)).refused()) << name;
   }
-  const Case demo = read_case(HEMOMAG_SOURCE_DIR "/examples/margination_demo.toml", {"magnetic.B0=0.03 T", "cell.vertices=642"});
+  const Case demo = read_case(HEMOMAG_SOURCE_DIR "/examples/margination_demo.toml",
+                              {"magnetic.B0=0.03 T", "cell.vertices=642"});
   EXPECT_DOUBLE_EQ(demo.magnetic.B0, 0.03);
   EXPECT_EQ(cell_count(demo, demo.cells[0], cell_models(demo)[0]), 14);
   EXPECT_NE(demo.text.find("0.03 T"), std::string::npos) << "the case as run holds the overrides";

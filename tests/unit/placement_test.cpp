@@ -12,7 +12,8 @@ namespace {
 using namespace hemomag;
 
 Vec3 nearest(Vec3 d, const case_::Case& c) {
-  for (std::size_t a = 0; a < 2; ++a) d[a] -= c.channel.size[a] * std::round(d[a] / c.channel.size[a]);
+  for (std::size_t a = 0; a < 2; ++a)
+    d[a] -= c.channel.size[a] * std::round(d[a] / c.channel.size[a]);
   return d;
 }
 
@@ -29,8 +30,10 @@ TEST(Placement, TheDemoHasFourteenCellsApartAndCarriersOutside) {
       for (const Vec3& x : system.cells[a].x) {
         plate = std::min({plate, x.z, c.channel.size[2] - x.z});
         for (std::size_t b = 0; b < a; ++b)
-          for (const Vec3& y : system.cells[b].x) closest = std::min(closest, norm(nearest(x - y, c)));
-        for (const auto& p : system.carriers) carrier = std::min(carrier, norm(nearest(x - p.beads[0], c)));
+          for (const Vec3& y : system.cells[b].x)
+            closest = std::min(closest, norm(nearest(x - y, c)));
+        for (const auto& p : system.carriers)
+          carrier = std::min(carrier, norm(nearest(x - p.beads[0], c)));
       }
     EXPECT_GE(closest, 0.40e-6);
     EXPECT_GE(plate, 0.3e-6);
@@ -53,18 +56,22 @@ TEST(Placement, TheDemoHasFourteenCellsApartAndCarriersOutside) {
       for (const Vec3& x : system.cells[a].x) centre += x / 642;
       points.push_back(centre);
     }
-    const analysis::ChannelBox box{{c.channel.size[0], c.channel.size[1], c.channel.size[2]}, false};
+    const analysis::ChannelBox box{{c.channel.size[0], c.channel.size[1], c.channel.size[2]},
+                                   false};
     // Points may lie outside the box by a period, as unwrapped cells do.
     for (Vec3& p : points)
-      for (std::size_t d = 0; d < 2; ++d) p[d] -= c.channel.size[d] * std::floor(p[d] / c.channel.size[d]);
+      for (std::size_t d = 0; d < 2; ++d)
+        p[d] -= c.channel.size[d] * std::floor(p[d] / c.channel.size[d]);
     const auto times = analysis::enclosure(points, triangles, box);
     for (std::size_t k = 0; k < 60; ++k) EXPECT_EQ(times[k], 0) << "carrier " << k;
-    for (std::size_t k = 60; k < times.size(); ++k) EXPECT_EQ(times[k], 1) << "centre of cell " << k - 60;
+    for (std::size_t k = 60; k < times.size(); ++k)
+      EXPECT_EQ(times[k], 1) << "centre of cell " << k - 60;
   }
 }
 
 TEST(Placement, TheSameSeedGivesTheSameState) {
-  auto c = case_::read_case(HEMOMAG_SOURCE_DIR "/examples/margination_demo.toml", {"cell.hematocrit=0.05"});
+  auto c = case_::read_case(HEMOMAG_SOURCE_DIR "/examples/margination_demo.toml",
+                            {"cell.hematocrit=0.05"});
   const auto a = case_::place(c), b = case_::place(c);
   ASSERT_EQ(a.cells.size(), b.cells.size());
   for (std::size_t k = 0; k < a.cells.size(); ++k) EXPECT_EQ(a.cells[k].x, b.cells[k].x);
@@ -74,12 +81,14 @@ TEST(Placement, TheSameSeedGivesTheSameState) {
 
 TEST(Placement, WormsAreStraightChainsOutsideCells) {
   auto c = case_::read_case(HEMOMAG_SOURCE_DIR "/examples/margination_demo.toml",
-                            {"cell.hematocrit=0.1", "carrier.kind=\"worm\"", "carrier.beads=12", "carrier.count=5", "carrier.stretching=100 uN/m"});
+                            {"cell.hematocrit=0.1", "carrier.kind=\"worm\"", "carrier.beads=12",
+                             "carrier.count=5", "carrier.stretching=100 uN/m"});
   const auto system = case_::place(c);
   ASSERT_EQ(system.carriers.size(), 5u);
   for (const auto& worm : system.carriers) {
     ASSERT_EQ(worm.beads.size(), 12u);
-    for (std::size_t k = 1; k < 12; ++k) EXPECT_NEAR(norm(worm.beads[k] - worm.beads[k - 1]), 250e-9, 1e-15);
+    for (std::size_t k = 1; k < 12; ++k)
+      EXPECT_NEAR(norm(worm.beads[k] - worm.beads[k - 1]), 250e-9, 1e-15);
     for (const Vec3& p : worm.beads)
       for (const auto& cell : system.cells)
         for (const Vec3& x : cell.x) EXPECT_GE(norm(nearest(x - p, c)), 0.56e-6);

@@ -23,11 +23,12 @@ std::vector<Vec3> velocity(FluidSolver& fluid) {
 }
 
 void report(const char* what, double measured, double expected, double tolerance) {
-  std::printf("%-40s measured %.10g expected %.10g error %.2e tolerance %.1e\n", what, measured, expected,
-              std::fabs(measured - expected), tolerance);
+  std::printf("%-40s measured %.10g expected %.10g error %.2e tolerance %.1e\n", what, measured,
+              expected, std::fabs(measured - expected), tolerance);
 }
 
-constexpr double plane_flow = 1e-10;  // relative to the largest velocity: exact up to accumulated rounding
+constexpr double plane_flow =
+    1e-10;  // relative to the largest velocity: exact up to accumulated rounding
 
 TEST(PlaneFlow, CouetteFromRestIsExact) {
   for (const double tau : {0.7, 1.0, 1.5}) {
@@ -38,7 +39,8 @@ TEST(PlaneFlow, CouetteFromRestIsExact) {
     p.plate_axis = 2;
     p.plate_velocity[1] = {0, U, 0};
     FluidSolver fluid(hemomag::test::neighbourhood(n, 2), p);
-    fluid.initialise([](const Vec3&) { return std::pair<Vec3, hemomag::fluid::VelocityGradient>{}; });
+    fluid.initialise(
+        [](const Vec3&) { return std::pair<Vec3, hemomag::fluid::VelocityGradient>{}; });
     const int steps = static_cast<int>(30 * n[2] * n[2] / (9.8 * p.relaxation.viscosity()));
     for (int t = 0; t < steps; ++t) fluid.step();
     double worst = 0;
@@ -70,7 +72,8 @@ TEST(PlaneFlow, CouetteStartsWithoutTransient) {
     fluid.step();
     const auto u = velocity(fluid);
     for (std::size_t k = 0; k < u.size(); ++k)
-      worst = std::max(worst, norm(u[k] - Vec3{0, -0.03 + shear * (static_cast<double>(k / 32) + 0.5), 0}));
+      worst = std::max(
+          worst, norm(u[k] - Vec3{0, -0.03 + shear * (static_cast<double>(k / 32) + 0.5), 0}));
   }
   report("Couette from its own profile, error over U", worst / 0.03, 0, plane_flow);
   EXPECT_LT(worst / 0.03, plane_flow);
@@ -85,21 +88,24 @@ TEST(PlaneFlow, PoiseuilleIsExact) {
     const double nu = p.relaxation.viscosity(), peak = 0.02, H = n[2];
     p.relaxation.force[1] = 8 * nu * peak / (H * H);
     FluidSolver fluid(hemomag::test::neighbourhood(n, 2), p);
-    fluid.initialise([](const Vec3&) { return std::pair<Vec3, hemomag::fluid::VelocityGradient>{}; });
+    fluid.initialise(
+        [](const Vec3&) { return std::pair<Vec3, hemomag::fluid::VelocityGradient>{}; });
     const int steps = static_cast<int>(30 * H * H / (9.8 * nu));
     for (int t = 0; t < steps; ++t) fluid.step();
     double worst = 0;
     const auto u = velocity(fluid);
     for (std::size_t k = 0; k < u.size(); ++k) {
       const double z = static_cast<double>(k / 32) + 0.5;
-      worst = std::max(worst, norm(u[k] - Vec3{0, p.relaxation.force[1] * z * (H - z) / (2 * nu), 0}));
+      worst =
+          std::max(worst, norm(u[k] - Vec3{0, p.relaxation.force[1] * z * (H - z) / (2 * nu), 0}));
     }
     report("Poiseuille, largest error over peak", worst / peak, 0, plane_flow);
     EXPECT_LT(worst / peak, plane_flow) << "tau " << tau;
   }
 }
 
-/// Viscosity over (tau - 1/2)/3 from the decay of a transverse wave of wavelength L between t and 2 t.
+/// Viscosity over (tau - 1/2)/3 from the decay of a transverse wave of wavelength L between t and 2
+/// t.
 double shear_wave_viscosity(int L, double tau) {
   const double k = 2 * std::numbers::pi / L;
   FluidParameters p;
@@ -114,7 +120,8 @@ double shear_wave_viscosity(int L, double tau) {
   const auto amplitude = [&] {
     double a = 0;
     const auto u = velocity(fluid);
-    for (int x = 0; x < L; ++x) a += u[static_cast<std::size_t>(x)].y * std::sin(k * (x + 0.5)) * 2 / L;
+    for (int x = 0; x < L; ++x)
+      a += u[static_cast<std::size_t>(x)].y * std::sin(k * (x + 0.5)) * 2 / L;
     return a;
   };
   const int t = static_cast<int>(1.0 / (fluid.viscosity() * k * k));
