@@ -237,11 +237,9 @@ private:
     if (carriers_ > 0) {
       line(t_, "compute margination carriers hemo/margination layer %.9g walls %s",
            length(c_.analysis.layer), c_.analysis.walls == LayerWalls::lower ? "lower" : "both");
-      if (c_.output.series)
-        line(t_,
-             "fix series all hemo/series %ld margination margination.csv dt_s %.12g average_from "
-             "%.9g",
-             steps_in(*c_.output.series, units_), units_.dt, c_.analysis.average_from);
+      // Without a series the first and the last row remain: a run always has its probability.
+      line(t_, "fix series all hemo/series %ld margination margination.csv dt_s %.12g average_from %.9g",
+           c_.output.series ? steps_in(*c_.output.series, units_) : steps(c_), units_.dt, c_.analysis.average_from);
     }
     if (c_.output.fields)
       line(t_, "fix snapshot all hemo/snapshot %ld fields dx_um %.12g dt_s %.12g",
