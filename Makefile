@@ -1,6 +1,7 @@
 # make demo    install what is missing, build, run the margination demo on 2 ranks
 # make check   install what is missing, build, run every quick test
 # make build   only build
+# make validate  compare with theory
 BUILD ?= build
 TYPE  ?= Release
 RANKS ?= 2
@@ -15,7 +16,7 @@ check: export OMPI_MCA_rmaps_base_oversubscribe = 1
 check: export OMPI_MCA_hwloc_base_binding_policy = none
 check: export OMPI_MCA_mpi_yield_when_idle = 1
 
-.PHONY: all bootstrap build demo check clean
+.PHONY: all bootstrap build demo check validate clean
 all: build
 
 bootstrap:
@@ -31,6 +32,9 @@ demo: build
 
 check: build
 	ctest --test-dir $(BUILD) -L quick --output-on-failure --no-tests=error -j $$(nproc)
+
+validate: build
+	$(BUILD)/bin/hemomag validate
 
 clean:
 	rm -rf $(BUILD)

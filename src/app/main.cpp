@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <mpi.h>
 
+#include "app/validation.hpp"
 #include "case/card.hpp"
 #include "case/case_file.hpp"
 #include "case/run.hpp"
@@ -58,8 +59,10 @@ int lmp(const std::vector<std::string>& arguments) {
 
 int not_available(const char* what) {
   if (rank() == 0)
-    std::fprintf(stderr,
-                 "hemomag: %s is not available in this version; accepted: run, check, lmp\n", what);
+    std::fprintf(
+        stderr,
+        "hemomag: %s is not available in this version; accepted: run, check, lmp, validate\n",
+        what);
   return 2;
 }
 
@@ -87,9 +90,14 @@ int parse_and_run(int argc, char** argv) {
   const std::vector<std::pair<const char*, const char*>> later = {
       {"pack", "only the initial state"},
       {"sweep", "one run per value of a key"},
-      {"validate", "compare with theory and experiment"},
       {"bench", "measure speed"},
       {"report", "one page of a finished run"}};
+  std::vector<std::string> names;
+  bool json = false;
+  auto* validation =
+      app.add_subcommand("validate", "compare with theory; all validations, or the named ones");
+  validation->add_option("NAME", names, "validations to run");
+  validation->add_flag("--json", json, "one JSON object a line");
   for (const auto& [name, help] : later)
     app.add_subcommand(name, std::string(help) + " (not in this version)")->prefix_command();
 
@@ -102,6 +110,7 @@ int parse_and_run(int argc, char** argv) {
   for (const auto& [name, help] : later)
     if (app.got_subcommand(name)) return not_available(name);
   if (resume) return not_available("--resume");
+  if (app.got_subcommand("validate")) return hemomag::app::validate(names, json);
   if (app.got_subcommand("check")) return with_case(path, overrides, check);
   if (out.empty()) out = "out/" + std::filesystem::path(path).stem().string();
   abort_code = 3;

@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "case/lattice_units.hpp"
-#include "ibm/delta_kernel.hpp"
 #include "magnetic/dipole.hpp"
 #include "magnetic/moment.hpp"
 
@@ -119,7 +118,7 @@ private:
   }
 
   void carriers(const Carrier& carrier) {
-    const double R = ibm::hydrodynamic_radius(ibm::delta_kernel(c_.numerics.kernel)) * units_.dx;
+    const double R = point_radius(c_);
     const bool too_large = carrier.feedback && carrier.radius >= R;
     add("carriers",
         text("%d of radius %.4g nm%s", carrier.count, carrier.radius * 1e9,

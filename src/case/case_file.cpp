@@ -329,7 +329,7 @@ void read_numerics(Case& c, const Table& t, const Table& channel) {
       t.missing("dt",
                 "is missing; without channel.shear_rate a time step is required, e.g. \"6.81 us\"");
   }
-  t.word("scheme");
+  n.scheme = t.word("scheme");
   t.word("precision");
   n.kernel = t.word("kernel");
 }

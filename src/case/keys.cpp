@@ -71,7 +71,7 @@ const std::vector<Key>& table() {
        "inertia scaling, rho shear_rate R^2/mu with R = 3.91 um; \"true\" keeps the real density; "
        "excludes dt"},
       amount("numerics", "dt", time, 0, inf, true, "", "time step; excludes cell_reynolds"),
-      choice("numerics", "scheme", {"trt"}, {"bgk", "exponential"}, "trt", "collision"),
+      choice("numerics", "scheme", {"trt", "bgk"}, {"exponential"}, "trt", "collision"),
       choice("numerics", "precision", {"double"}, {"single"}, "double", "of the populations"),
       choice("numerics", "kernel", {"cosine4", "peskin4"}, {"roma3", "linear2"}, "cosine4",
              "smoothed delta function of the coupling"),

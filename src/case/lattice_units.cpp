@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "fluid/relaxation.hpp"
 #include "ibm/delta_kernel.hpp"
 
 namespace hemomag::case_ {
@@ -73,9 +74,16 @@ double stokes_friction(const Case& c, const Carrier& carrier) {
   return 6 * std::numbers::pi * c.fluid.viscosity * carrier.radius;
 }
 
+double point_radius(const Case& c) {
+  const fluid::Relaxation relaxation = c.numerics.scheme == "bgk"
+                                           ? fluid::Relaxation::bgk(c.numerics.tau)
+                                           : fluid::Relaxation{c.numerics.tau, 3.0 / 16};
+  return ibm::hydrodynamic_radius(ibm::delta_kernel(c.numerics.kernel), relaxation.magic) *
+         c.numerics.dx;
+}
+
 double bare_friction(const Case& c, const Carrier& carrier) {
-  const double R = ibm::hydrodynamic_radius(ibm::delta_kernel(c.numerics.kernel)) * c.numerics.dx;
-  return carrier.feedback ? stokes_friction(c, carrier) / (1 - carrier.radius / R)
+  return carrier.feedback ? stokes_friction(c, carrier) / (1 - carrier.radius / point_radius(c))
                           : stokes_friction(c, carrier);
 }
 

@@ -54,6 +54,9 @@ GradientField gradient_field(const Case& c);
 /// Largest |B| in the channel [T].
 double strongest_field(const Case& c);
 
+/// Hydrodynamic radius of a coupled point [m]; a carrier that is felt must be smaller.
+double point_radius(const Case& c);
+
 /// Friction of a carrier bead [kg/s]: 6 pi mu a, and the bare one that the coupled scheme uses.
 double stokes_friction(const Case& c, const Carrier& carrier);
 double bare_friction(const Case& c, const Carrier& carrier);

@@ -217,8 +217,8 @@ private:
   }
 
   void fluid() {
-    append("fix fluid all hemo/fluid tau %.12g scheme trt kernel %s", c_.numerics.tau,
-           c_.numerics.kernel.c_str());
+    append("fix fluid all hemo/fluid tau %.12g scheme %s kernel %s", c_.numerics.tau,
+           c_.numerics.scheme.c_str(), c_.numerics.kernel.c_str());
     if (c_.channel.boundary == Boundary::plates) {
       const auto v = plate_velocity(c_);
       append(" plates z lower 0 %.12g 0 upper 0 %.12g 0", v[0] / units_.velocity(),
@@ -238,8 +238,11 @@ private:
       line(t_, "compute margination carriers hemo/margination layer %.9g walls %s",
            length(c_.analysis.layer), c_.analysis.walls == LayerWalls::lower ? "lower" : "both");
       // Without a series the first and the last row remain: a run always has its probability.
-      line(t_, "fix series all hemo/series %ld margination margination.csv dt_s %.12g average_from %.9g",
-           c_.output.series ? steps_in(*c_.output.series, units_) : steps(c_), units_.dt, c_.analysis.average_from);
+      line(
+          t_,
+          "fix series all hemo/series %ld margination margination.csv dt_s %.12g average_from %.9g",
+          c_.output.series ? steps_in(*c_.output.series, units_) : steps(c_), units_.dt,
+          c_.analysis.average_from);
     }
     if (c_.output.fields)
       line(t_, "fix snapshot all hemo/snapshot %ld fields dx_um %.12g dt_s %.12g",

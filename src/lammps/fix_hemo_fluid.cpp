@@ -29,6 +29,9 @@ FixHemoFluid::FixHemoFluid(LAMMPS* lmp, int narg, char** arg)
   global_freq = 1;
   extscalar = extvector = 0;  // totals: not to be divided by the number of atoms
   for (int at = 3; at < narg;) at = parse_keyword(narg, arg, at);
+  if (bgk_)
+    parameters_->relaxation.magic =
+        hemomag::fluid::Relaxation::bgk(parameters_->relaxation.tau).magic;
 }
 
 FixHemoFluid::~FixHemoFluid() = default;
@@ -58,8 +61,10 @@ int FixHemoFluid::parse_keyword(int narg, char** arg, int at) {
                             " is unstable, need tau > 0.5 (raise the viscosity or lower dt)");
   } else if (key == "scheme") {
     const std::string scheme = next();
-    if (scheme != "trt")
-      error->all(FLERR, "fix hemo/fluid: scheme " + scheme + " is not available; accepted: trt");
+    if (scheme != "trt" && scheme != "bgk")
+      error->all(FLERR,
+                 "fix hemo/fluid: scheme " + scheme + " is not available; accepted: trt, bgk");
+    bgk_ = scheme == "bgk";
   } else if (key == "magic") {
     p.relaxation.magic = number();
     if (p.relaxation.magic <= 0)
@@ -211,7 +216,7 @@ FluidSolver& FixHemoFluid::solver() {
 double FixHemoFluid::viscosity() const { return parameters_->relaxation.viscosity(); }
 
 double FixHemoFluid::point_radius() const {
-  return hemomag::ibm::hydrodynamic_radius(parameters_->kernel);
+  return hemomag::ibm::hydrodynamic_radius(parameters_->kernel, parameters_->relaxation.magic);
 }
 
 double FixHemoFluid::compute_scalar() {

@@ -51,6 +51,7 @@ private:
   std::unique_ptr<hemomag::solver::FluidParameters> parameters_;
   std::unique_ptr<hemomag::solver::FluidSolver> solver_;
   Initial initial_ = Initial::rest;
+  bool bgk_ = false;  // one relaxation rate: magic follows from tau
   int one_way_bits_ = 0;  // groups whose forces the fluid does not feel
   bigint done_step_ = -1;
 };

@@ -157,7 +157,7 @@ TEST_F(BadInput, Contradictions) {
 }
 
 TEST_F(BadInput, FeaturesOfLaterVersions) {
-  refused(changed("dx = \"0.5 um\"", "dx = \"0.5 um\"\nscheme = \"bgk\""),
+  refused(changed("dx = \"0.5 um\"", "dx = \"0.5 um\"\nscheme = \"exponential\""),
           "case.toml:9:10: numerics.scheme:", "not available in this version");
   refused(changed("dx = \"0.5 um\"", "dx = \"0.5 um\"\nprecision = \"single\""),
           "case.toml:9:13: numerics.precision:", "not available");

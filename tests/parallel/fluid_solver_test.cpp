@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "reference/lattice_reference.hpp"
+#include "solver/bricks.hpp"
 #include "support/grid.hpp"
 
 namespace {
@@ -77,7 +78,7 @@ void compare(std::array<int, 3> n, bool plates, double tau) {
     reference.lower = {0.01, -0.02, 0};
     reference.upper = {0, 0.04, 0};
   }
-  const auto at = hemomag::test::neighbourhood(n, parameters.plate_axis);
+  const auto at = hemomag::solver::bricks(MPI_COMM_WORLD, n, parameters.plate_axis);
   FluidSolver solver(at, parameters);
   solver.initialise([&](const Vec3& x) { return wavy(x, n); });
   for (int z = 0; z < n[2]; ++z)
@@ -141,7 +142,7 @@ TEST(FluidSolver, ConservesMassAndBooksMomentum) {
   for (const bool plates : {false, true}) {
     FluidParameters parameters;
     parameters.plate_axis = plates ? 2 : -1;
-    FluidSolver solver(hemomag::test::neighbourhood(n, parameters.plate_axis), parameters);
+    FluidSolver solver(hemomag::solver::bricks(MPI_COMM_WORLD, n, parameters.plate_axis), parameters);
     solver.initialise([&](const Vec3& x) { return wavy(x, n); });
     std::vector<int> mine(points.x.size());
     Vec3 total;

@@ -1,0 +1,68 @@
+#include "app/validation.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+#include <mpi.h>
+#include <nlohmann/json.hpp>
+
+namespace hemomag::app {
+namespace {
+
+void print(const Finding& f, bool json) {
+  if (json) {
+    const nlohmann::ordered_json line{
+        {"name", f.name},         {"quantity", f.quantity}, {"measured", f.measured},
+        {"expected", f.expected}, {"error", f.error()},     {"tolerance", f.tolerance},
+        {"unit", f.unit},         {"pass", f.pass()},       {"source", f.source}};
+    std::printf("%s\n", line.dump().c_str());
+  } else {
+    std::printf("%-16s %-44s %12.6g %12.6g %9.1e %9.1e %-6s %s\n", f.name.c_str(),
+                f.quantity.c_str(), f.measured, f.expected, f.error(), f.tolerance, f.unit.c_str(),
+                f.pass() ? "pass" : "FAIL");
+  }
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+const std::vector<Validation>& validations() {
+  static const std::vector<Validation> all = fluid_validations();
+  return all;
+}
+
+int validate(const std::vector<std::string>& names, bool json) {
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  for (const std::string& name : names)
+    if (std::none_of(validations().begin(), validations().end(),
+                     [&](const Validation& v) { return v.name == name; })) {
+      std::string known;
+      for (const Validation& v : validations()) known += (known.empty() ? "" : ", ") + v.name;
+      if (rank == 0)
+        std::fprintf(stderr,
+                     "hemomag validate: %s is not a validation of this version; accepted: %s\n",
+                     name.c_str(), known.c_str());
+      return 2;
+    }
+  int code = 0;
+  if (rank == 0) {
+    if (!json)
+      std::printf("%-16s %-44s %12s %12s %9s %9s\n", "validation", "quantity", "measured",
+                  "expected", "error", "tolerance");
+    int passed = 0, failed = 0;
+    for (const Validation& v : validations()) {
+      if (!names.empty() && std::find(names.begin(), names.end(), v.name) == names.end()) continue;
+      for (const Finding& f : v.run()) {
+        print(f, json);
+        ++(f.pass() ? passed : failed);
+      }
+    }
+    if (!json) std::printf("%d passed, %d failed\n", passed, failed);
+    code = failed > 0 ? 1 : 0;
+  }
+  MPI_Bcast(&code, 1, MPI_INT, 0, MPI_COMM_WORLD);
+  return code;
+}
+
+}  // namespace hemomag::app
