@@ -241,18 +241,17 @@ double taylor_green_viscosity(const Relaxation& relaxation, int L) {
 }
 
 std::vector<Finding> taylor_green() {
-  const Relaxation trt{1.0, 3.0 / 16}, bgk = Relaxation::bgk(1.0);
+  const Relaxation trt{1.0, 3.0 / 16};
   const double coarse = taylor_green_viscosity(trt, 32), middle = taylor_green_viscosity(trt, 64),
                fine = taylor_green_viscosity(trt, 128);
   const char* source = "exp(-2 nu k^2 t)";
-  return {{"taylor-green", "BGK, tau 1, viscosity over nu, L = 32", taylor_green_viscosity(bgk, 32),
-           1, 1e-3, "", source},
-          // The scheme's own error is 0.4 % at L = 32 (waves along the diagonal) and falls fourfold
-          // a refinement.
-          {"taylor-green", "TRT, tau 1, viscosity over nu, L = 128", fine, 1, 3e-4, "", source},
-          {"taylor-green", "TRT, order of convergence, L = 32, 64",
+  // The scheme's own error is 0.4 % at L = 32 (waves along the diagonal) and falls fourfold a
+  // refinement.
+  return {{"taylor-green", "viscosity over nu, L = 32", coarse, 1, 5e-3, "", source},
+          {"taylor-green", "viscosity over nu, L = 128", fine, 1, 3e-4, "", source},
+          {"taylor-green", "order of convergence, L = 32, 64",
            std::log2((coarse - 1) / (middle - 1)), 2, 0.1, "", source},
-          {"taylor-green", "TRT, order of convergence, L = 64, 128",
+          {"taylor-green", "order of convergence, L = 64, 128",
            std::log2((middle - 1) / (fine - 1)), 2, 0.1, "", source}};
 }
 
