@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <mpi.h>
 
+#include "app/bench.hpp"
 #include "app/validation.hpp"
 #include "case/card.hpp"
 #include "case/case_file.hpp"
@@ -59,10 +60,10 @@ int lmp(const std::vector<std::string>& arguments) {
 
 int not_available(const char* what) {
   if (rank() == 0)
-    std::fprintf(
-        stderr,
-        "hemomag: %s is not available in this version; accepted: run, check, lmp, validate\n",
-        what);
+    std::fprintf(stderr,
+                 "hemomag: %s is not available in this version; accepted: run, check, lmp, "
+                 "validate, bench\n",
+                 what);
   return 2;
 }
 
@@ -90,14 +91,16 @@ int parse_and_run(int argc, char** argv) {
   const std::vector<std::pair<const char*, const char*>> later = {
       {"pack", "only the initial state"},
       {"sweep", "one run per value of a key"},
-      {"bench", "measure speed"},
       {"report", "one page of a finished run"}};
   std::vector<std::string> names;
   bool json = false;
   auto* validation =
       app.add_subcommand("validate", "compare with theory; all validations, or the named ones");
   validation->add_option("NAME", names, "validations to run");
-  validation->add_flag("--json", json, "one JSON object a line");
+  auto* speed = app.add_subcommand("bench", "measure speed: fluid");
+  speed->add_option("NAME", names, "benchmarks to run");
+  for (auto* command : {validation, speed})
+    command->add_flag("--json", json, "one JSON object a line");
   for (const auto& [name, help] : later)
     app.add_subcommand(name, std::string(help) + " (not in this version)")->prefix_command();
 
@@ -111,6 +114,7 @@ int parse_and_run(int argc, char** argv) {
     if (app.got_subcommand(name)) return not_available(name);
   if (resume) return not_available("--resume");
   if (app.got_subcommand("validate")) return hemomag::app::validate(names, json);
+  if (app.got_subcommand("bench")) return hemomag::app::bench(names, json);
   if (app.got_subcommand("check")) return with_case(path, overrides, check);
   if (out.empty()) out = "out/" + std::filesystem::path(path).stem().string();
   abort_code = 3;

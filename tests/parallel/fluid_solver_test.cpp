@@ -142,7 +142,8 @@ TEST(FluidSolver, ConservesMassAndBooksMomentum) {
   for (const bool plates : {false, true}) {
     FluidParameters parameters;
     parameters.plate_axis = plates ? 2 : -1;
-    FluidSolver solver(hemomag::solver::bricks(MPI_COMM_WORLD, n, parameters.plate_axis), parameters);
+    FluidSolver solver(hemomag::solver::bricks(MPI_COMM_WORLD, n, parameters.plate_axis),
+                       parameters);
     solver.initialise([&](const Vec3& x) { return wavy(x, n); });
     std::vector<int> mine(points.x.size());
     Vec3 total;

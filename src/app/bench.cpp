@@ -1,0 +1,120 @@
+#include "app/bench.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
+#include <mpi.h>
+#include <nlohmann/json.hpp>
+
+#include "base/aligned.hpp"
+#include "solver/bricks.hpp"
+#include "solver/fluid_solver.hpp"
+
+namespace hemomag::app {
+namespace {
+
+constexpr int repetitions = 5;
+
+/// Seconds of `work` between barriers.
+template <class Work> double timed(Work work) {
+  MPI_Barrier(MPI_COMM_WORLD);
+  const double start = MPI_Wtime();
+  work();
+  MPI_Barrier(MPI_COMM_WORLD);
+  return MPI_Wtime() - start;
+}
+
+double median(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
+  return values[values.size() / 2];
+}
+
+/// to = 2 from: one array read, one written, which is first fetched. (A plain copy may become a
+/// call that bypasses the caches, which the fluid cannot.)
+void scale(const AlignedArray<double>& from, AlignedArray<double>& to) {
+  for (std::size_t i = 0; i < from.size(); ++i) to[i] = 2 * from[i];
+}
+
+/// The study's grid with plates, point forces and velocities on: updates a second beside the
+/// machine's copy rate.
+void bench_fluid(bool json) {
+  int rank = 0, ranks = 1;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  const std::array<int, 3> nodes{108, 144, 96};
+  const double updates = 108. * 144 * 96;
+  // 19 populations read and written in place, 3 forces read, 3 velocities written and first
+  // fetched.
+  constexpr double bytes_per_update = (19 * 2 + 3 + 3 * 2) * sizeof(double);
+
+  std::vector<std::pair<const char*, fluid::Relaxation>> schemes = {
+      {"trt", {1.0, 3.0 / 16}}, {"bgk", fluid::Relaxation::bgk(1.0)}};
+  std::vector<solver::FluidSolver> fluids;
+  fluids.reserve(schemes.size());
+  for (const auto& [name, relaxation] : schemes) {
+    solver::FluidParameters p;
+    p.relaxation = relaxation;
+    p.plate_axis = 2;
+    p.plate_velocity[1] = {0, 0.03, 0};
+    fluids.emplace_back(solver::bricks(MPI_COMM_WORLD, nodes, 2), p);
+    fluids.back().initialise(
+        [](const Vec3&) { return std::pair<Vec3, fluid::VelocityGradient>{}; });
+  }
+  constexpr std::size_t copied = std::size_t{1} << 24;
+  AlignedArray<double> from(copied), to(copied);
+
+  std::vector<double> copy_seconds;
+  std::vector<std::vector<double>> step_seconds(schemes.size());
+  constexpr int steps = 10;
+  for (int r = 0; r <= repetitions; ++r) {  // the first round warms up
+    const double copy = timed([&] { scale(from, to); });
+    if (r > 0) copy_seconds.push_back(copy);
+    for (std::size_t s = 0; s < schemes.size(); ++s) {
+      const double seconds = timed([&] {
+        for (int t = 0; t < steps; ++t) fluids[s].step();
+      });
+      if (r > 0) step_seconds[s].push_back(seconds / steps);
+    }
+  }
+  if (rank != 0) return;
+  const double copy_gb = ranks * 3.0 * sizeof(double) * copied / median(copy_seconds) / 1e9;
+  for (std::size_t s = 0; s < schemes.size(); ++s) {
+    const double mlups = updates / median(step_seconds[s]) / 1e6;
+    const double fraction = mlups * 1e6 * bytes_per_update / (copy_gb * 1e9);
+    if (json)
+      std::printf("%s\n", nlohmann::ordered_json{{"scheme", schemes[s].first},
+                                                 {"precision", "double"},
+                                                 {"ranks", ranks},
+                                                 {"grid", nodes},
+                                                 {"mlups", mlups},
+                                                 {"bytes_per_update", bytes_per_update},
+                                                 {"copy_gb_per_s", copy_gb},
+                                                 {"fraction", fraction}}
+                              .dump()
+                              .c_str());
+    else
+      std::printf("fluid %s double, %d ranks, 108 x 144 x 96: %.1f MLUPS, %.0f bytes an update, "
+                  "%.2f of the copy rate %.1f GB/s\n",
+                  schemes[s].first, ranks, mlups, bytes_per_update, fraction, copy_gb);
+  }
+}
+
+}  // namespace
+
+int bench(const std::vector<std::string>& names, bool json) {
+  for (const std::string& name : names)
+    if (name != "fluid") {
+      int rank = 0;
+      MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+      if (rank == 0)
+        std::fprintf(stderr,
+                     "hemomag bench: %s is not available in this version; accepted: fluid\n",
+                     name.c_str());
+      return 2;
+    }
+  bench_fluid(json);
+  return 0;
+}
+
+}  // namespace hemomag::app
