@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <deque>
 
 #include <mpi.h>
 #include <nlohmann/json.hpp>
@@ -50,8 +51,7 @@ void bench_fluid(bool json) {
 
   std::vector<std::pair<const char*, fluid::Relaxation>> schemes = {
       {"trt", {1.0, 3.0 / 16}}, {"bgk", fluid::Relaxation::bgk(1.0)}};
-  std::vector<solver::FluidSolver> fluids;
-  fluids.reserve(schemes.size());
+  std::deque<solver::FluidSolver> fluids;
   for (const auto& [name, relaxation] : schemes) {
     solver::FluidParameters p;
     p.relaxation = relaxation;

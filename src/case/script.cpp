@@ -18,16 +18,6 @@ constexpr double soft_kappa = 30;
 constexpr double mesh_reference = 3286;  // vertices for which contact energies are given
 constexpr int watch_every = 100;
 
-[[gnu::format(printf, 2, 3)]] void line(std::string& text, const char* format, ...) {
-  char buffer[1024];
-  va_list args;
-  va_start(args, format);
-  std::vsnprintf(buffer, sizeof buffer, format, args);
-  va_end(args);
-  text += buffer;
-  text += '\n';
-}
-
 class Script {
 public:
   Script(const Case& c, const System& system)
@@ -38,25 +28,23 @@ public:
 
   std::string write() {
     const char* z = c_.channel.boundary == Boundary::plates ? "f" : "p";
-    line(t_, "# %s", c_.title.c_str());
-    line(t_, "# lattice units: dx = %.9g m, dt = %.9g s, density = %.9g kg/m3", units_.dx,
-         units_.dt, units_.density);
-    line(t_,
-         "units lj\natom_style molecular\nnewton on\nboundary p p %s\nspecial_bonds lj/coul 1 1 1",
+    line("# %s", c_.title.c_str());
+    line("# lattice units: dx = %.9g m, dt = %.9g s, density = %.9g kg/m3", units_.dx, units_.dt,
+         units_.density);
+    line("units lj\natom_style molecular\nnewton on\nboundary p p %s\nspecial_bonds lj/coul 1 1 1",
          z);
-    line(t_, "neighbor %g bin\ncomm_modify cutoff %.9g", skin, ghost_cutoff());
+    line("neighbor %g bin\ncomm_modify cutoff %.9g", skin, ghost_cutoff());
     bonded_styles();
-    line(t_, "read_data cells.data");
+    line("read_data cells.data");
     groups();
-    line(t_, "mass * 1.0");
+    line("mass * 1.0");
     pairs();
     fixes();
     observers();
-    line(t_,
-         "timestep 1.0\nthermo_style custom step atoms ebond eangle edihed epair f_fluid\nthermo "
+    line("timestep 1.0\nthermo_style custom step atoms ebond eangle edihed epair f_fluid\nthermo "
          "%ld",
          std::max(1L, steps(c_) / 100));
-    line(t_, "run %ld", steps(c_));
+    line("run %ld", steps(c_));
     return t_;
   }
 
@@ -87,11 +75,11 @@ private:
 
   void bonded_styles() {
     if (cells_ > 0) {
-      line(t_, "bond_style %s", worms_ ? "hybrid hemo/wlc harmonic" : "hemo/wlc");
-      line(t_, "angle_style %s", worms_ ? "hybrid hemo/membrane harmonic" : "hemo/membrane");
-      line(t_, "dihedral_style hemo/bend");
+      line("bond_style %s", worms_ ? "hybrid hemo/wlc harmonic" : "hemo/wlc");
+      line("angle_style %s", worms_ ? "hybrid hemo/membrane harmonic" : "hemo/membrane");
+      line("dihedral_style hemo/bend");
     } else if (worms_) {
-      line(t_, "bond_style harmonic\nangle_style harmonic");
+      line("bond_style harmonic\nangle_style harmonic");
     }
   }
 
@@ -105,25 +93,25 @@ private:
   void groups() {
     group("cells", 1, cells_);
     group("carriers", cells_ + 1, carriers_);
-    line(t_, "neigh_modify every 1 delay 0 check yes");
-    if (cells_ > 0) line(t_, "neigh_modify exclude molecule/intra cells");
+    line("neigh_modify every 1 delay 0 check yes");
+    if (cells_ > 0) line("neigh_modify exclude molecule/intra cells");
   }
 
   void pairs() {
     const bool contact = cells_ > 0, dipole = carriers_ > 0 && c_.magnetic.dipoles;
     if (!contact && !dipole) {
-      line(t_, "pair_style zero %g\npair_coeff * *", 1.0);
+      line("pair_style zero %g\npair_coeff * *", 1.0);
       return;
     }
     if (contact && carriers_ > 0) {
       if (dipole)
-        line(t_, "pair_style hybrid hemo/contact hemo/dipole %.9g", dipole_cutoff(c_));
+        line("pair_style hybrid hemo/contact hemo/dipole %.9g", dipole_cutoff(c_));
       else
-        line(t_, "pair_style hybrid hemo/contact");
+        line("pair_style hybrid hemo/contact");
     } else if (contact) {
-      line(t_, "pair_style hemo/contact");
+      line("pair_style hemo/contact");
     } else {
-      line(t_, "pair_style hemo/dipole %.9g", dipole_cutoff(c_));
+      line("pair_style hemo/dipole %.9g", dipole_cutoff(c_));
     }
     const bool hybrid = contact && carriers_ > 0;
     cell_pairs(hybrid ? "hemo/contact " : "");
@@ -145,7 +133,7 @@ private:
                length(cell_sigma(c_, system_.models[i], system_.models[j])));
       }
       for (std::size_t b = 0; b < carriers_; ++b)
-        line(t_, "pair_coeff %zu %zu %slj %.9g %.9g", i + 1, cells_ + b + 1, style,
+        line("pair_coeff %zu %zu %slj %.9g %.9g", i + 1, cells_ + b + 1, style,
              k.epsilon * finer(i) * thermal, length(k.carrier_sigma));
     }
   }
@@ -155,34 +143,46 @@ private:
       for (std::size_t b = a; b < carriers_; ++b) {
         const std::size_t i = cells_ + a + 1, j = cells_ + b + 1;
         if (!dipole) {
-          line(t_, "pair_coeff %zu %zu none", i, j);
+          line("pair_coeff %zu %zu none", i, j);
           continue;
         }
         const double contact = length(c_.carriers[a].radius + c_.carriers[b].radius);
         if (c_.contact.repulsion == Repulsion::soft)
-          line(t_, "pair_coeff %zu %zu %s%.9g soft %g", i, j, style, contact, soft_kappa);
+          line("pair_coeff %zu %zu %s%.9g soft %g", i, j, style, contact, soft_kappa);
         else  // Eq. 26: epsilon = 0.1 kBT, sigma = 0.1 a
-          line(t_, "pair_coeff %zu %zu %s%.9g paper %.9g %.9g", i, j, style, contact,
+          line("pair_coeff %zu %zu %s%.9g paper %.9g %.9g", i, j, style, contact,
                0.1 * kBT / units_.energy(), 0.05 * contact);
       }
   }
 
-  void append(const char* format, ...) __attribute__((format(printf, 2, 3))) {
-    char buffer[512];
+  [[gnu::format(printf, 2, 3)]] void append(const char* format, ...) {
     va_list args;
     va_start(args, format);
-    std::vsnprintf(buffer, sizeof buffer, format, args);
+    add(format, args);
     va_end(args);
+  }
+
+  [[gnu::format(printf, 2, 3)]] void line(const char* format, ...) {
+    va_list args;
+    va_start(args, format);
+    add(format, args);
+    va_end(args);
+    t_ += '\n';
+  }
+
+  void add(const char* format, va_list args) {
+    char buffer[1024];
+    std::vsnprintf(buffer, sizeof buffer, format, args);
     t_ += buffer;
   }
 
   void fixes() {
-    if (cells_ > 0) line(t_, "fix advect cells hemo/advect");
+    if (cells_ > 0) line("fix advect cells hemo/advect");
     if (carriers_ > 0) {
       t_ += "fix drag carriers hemo/drag";
       for (std::size_t b = 0; b < carriers_; ++b)
         append(" radius %zu %.9g", cells_ + b + 1, length(c_.carriers[b].radius));
-      line(t_, " feedback %s", c_.carriers[0].feedback ? "yes" : "no");
+      line(" feedback %s", c_.carriers[0].feedback ? "yes" : "no");
       field();
     }
     plates();
@@ -197,14 +197,14 @@ private:
     const double unit = units_.magnetic_field();
     const char axis = "xyz"[c_.magnetic.axis];
     if (c_.magnetic.field == FieldKind::none) {
-      line(t_, " none");
+      line(" none");
     } else if (c_.magnetic.field == FieldKind::uniform) {
       double B[3] = {0, 0, 0};
       B[c_.magnetic.axis] = c_.magnetic.B0 / unit;
-      line(t_, " uniform %.12g %.12g %.12g", B[0], B[1], B[2]);
+      line(" uniform %.12g %.12g %.12g", B[0], B[1], B[2]);
     } else {
       const auto g = gradient_field(c_);
-      line(t_, " gradient %c %.12g %.12g", axis, g.slope * units_.dx / unit, length(g.zero));
+      line(" gradient %c %.12g %.12g", axis, g.slope * units_.dx / unit, length(g.zero));
     }
   }
 
@@ -212,7 +212,7 @@ private:
     if (c_.channel.boundary != Boundary::plates || cells_ + carriers_ == 0) return;
     const double sigma = length(c_.contact.plate_sigma), epsilon = kBT / units_.energy();
     const double cut = contact::lj_cutoff_over_sigma * sigma;
-    line(t_, "fix plates all wall/lj126 zlo EDGE %.9g %.9g %.9g zhi EDGE %.9g %.9g %.9g", epsilon,
+    line("fix plates all wall/lj126 zlo EDGE %.9g %.9g %.9g zhi EDGE %.9g %.9g %.9g", epsilon,
          sigma, cut, epsilon, sigma, cut);
   }
 
@@ -235,17 +235,16 @@ private:
   void observers() {
     const double dx_um = units_.dx * 1e6;
     if (carriers_ > 0) {
-      line(t_, "compute margination carriers hemo/margination layer %.9g walls %s",
+      line("compute margination carriers hemo/margination layer %.9g walls %s",
            length(c_.analysis.layer), c_.analysis.walls == LayerWalls::lower ? "lower" : "both");
       // Without a series the first and the last row remain: a run always has its probability.
       line(
-          t_,
           "fix series all hemo/series %ld margination margination.csv dt_s %.12g average_from %.9g",
           c_.output.series ? steps_in(*c_.output.series, units_) : steps(c_), units_.dt,
           c_.analysis.average_from);
     }
     if (c_.output.fields)
-      line(t_, "fix snapshot all hemo/snapshot %ld fields dx_um %.12g dt_s %.12g",
+      line("fix snapshot all hemo/snapshot %ld fields dx_um %.12g dt_s %.12g",
            steps_in(*c_.output.fields, units_), dx_um, units_.dt);
     append("fix watch all hemo/watch %d mach_max 0.3", watch_every);
     if (cells_ > 0) append(" cells cells");

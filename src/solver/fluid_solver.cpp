@@ -90,23 +90,29 @@ NodeBox FluidSolver::with_halo(int axes_done, int halo) const {
   return box;
 }
 
+/// The slabs at both ends of an axis: ghosts, and the owned nodes next to them; along lower axes
+/// the halo is included.
+FluidSolver::Faces FluidSolver::faces(int axis, int width) const {
+  const NodeBox face = with_halo(axis, width);
+  const int n = block().size[axis];
+  Faces f{face, face, face, face, face};
+  f.ghost_low.lo[axis] = -width, f.ghost_low.hi[axis] = 0;
+  f.first.hi[axis] = width;
+  f.last.lo[axis] = n - width;
+  f.ghost_high.lo[axis] = n, f.ghost_high.hi[axis] = n + width;
+  return f;
+}
+
 /// Halo forces go home: z, then y, then x, so that edges and corners travel with the faces.
 void FluidSolver::reduce_forces() {
   if (forces_clear_) return;
-  const int h = n_layout_.halo;
   for (int axis = 2; axis >= 0; --axis) {
-    const NodeBox face = with_halo(axis, h);
+    const Faces at = faces(axis, n_layout_.halo);
     for (const auto& plate : plates_)
       if (plate.axis == axis)
-        plate_share_ += fluid::fold_mirror_force(plate, force_, n_layout_, face);
-    const int n = block().size[axis];
-    NodeBox ghost_low = face, ghost_high = face, first = face, last = face;
-    ghost_low.lo[axis] = -h, ghost_low.hi[axis] = 0;
-    ghost_high.lo[axis] = n, ghost_high.hi[axis] = n + h;
-    first.lo[axis] = 0, first.hi[axis] = h;
-    last.lo[axis] = n - h, last.hi[axis] = n;
-    halo_.exchange(axis, n_layout_, {force_, ghost_low}, {force_, last}, {force_, ghost_high},
-                   {force_, first}, Combine::add);
+        plate_share_ += fluid::fold_mirror_force(plate, force_, n_layout_, at.whole);
+    halo_.exchange(axis, n_layout_, {force_, at.ghost_low}, {force_, at.last},
+                   {force_, at.ghost_high}, {force_, at.first}, Combine::add);
   }
   for (int d = 0; d < 3; ++d)
     for_each_row(with_halo(0, 0), n_layout_, [&](std::ptrdiff_t row, int n) {
@@ -115,43 +121,34 @@ void FluidSolver::reduce_forces() {
 }
 
 void FluidSolver::exchange_velocity() {
-  const int h = n_layout_.halo;
   for (int axis = 0; axis < 3; ++axis) {
-    const NodeBox face = with_halo(axis, h);
-    const int n = block().size[axis];
-    NodeBox ghost_low = face, ghost_high = face, first = face, last = face;
-    ghost_low.lo[axis] = -h, ghost_low.hi[axis] = 0;
-    ghost_high.lo[axis] = n, ghost_high.hi[axis] = n + h;
-    first.lo[axis] = 0, first.hi[axis] = h;
-    last.lo[axis] = n - h, last.hi[axis] = n;
-    halo_.exchange(axis, n_layout_, {u_, first}, {u_, ghost_high}, {u_, last}, {u_, ghost_low},
-                   Combine::copy);
+    const Faces at = faces(axis, n_layout_.halo);
+    halo_.exchange(axis, n_layout_, {u_, at.first}, {u_, at.ghost_high}, {u_, at.last},
+                   {u_, at.ghost_low}, Combine::copy);
     for (const auto& plate : plates_)
-      if (plate.axis == axis) fluid::fill_mirror_velocity(plate, u_, n_layout_, face);
+      if (plate.axis == axis) fluid::fill_mirror_velocity(plate, u_, n_layout_, at.whole);
   }
+}
+
+/// The populations that cross a face normal to the axis in one sense.
+std::array<double*, 5> FluidSolver::crossing(int axis, int sense) const {
+  std::array<double*, 5> crossing{};
+  const auto directions = d3q19::crossing(axis, sense);
+  for (std::size_t k = 0; k < 5; ++k) crossing[k] = f_[static_cast<std::size_t>(directions[k])];
+  return crossing;
 }
 
 /// Before a shift pass: ghosts take the neighbours' populations that will enter, x, then y, then z.
 void FluidSolver::send_populations_forward() {
   for (int axis = 0; axis < 3; ++axis) {
-    std::array<double*, 5> up{}, down{};
-    for (std::size_t k = 0; k < 5; ++k) {
-      up[k] = f_[static_cast<std::size_t>(d3q19::crossing(axis, 1)[k])];
-      down[k] = f_[static_cast<std::size_t>(d3q19::crossing(axis, -1)[k])];
-    }
-    const NodeBox face = with_halo(axis, 1);
-    const int n = block().size[axis];
-    NodeBox ghost_low = face, ghost_high = face, first = face, last = face;
-    ghost_low.lo[axis] = -1, ghost_low.hi[axis] = 0;
-    ghost_high.lo[axis] = n, ghost_high.hi[axis] = n + 1;
-    first.hi[axis] = 1;
-    last.lo[axis] = n - 1;
+    const auto up = crossing(axis, 1), down = crossing(axis, -1);
+    const Faces at = faces(axis, 1);
     // A local pass left f_i* in slot opposite(i): what goes up lies in the slots that point down.
-    halo_.exchange(axis, f_layout_, {up, first}, {up, ghost_high}, {down, last}, {down, ghost_low},
-                   Combine::copy);
+    halo_.exchange(axis, f_layout_, {up, at.first}, {up, at.ghost_high}, {down, at.last},
+                   {down, at.ghost_low}, Combine::copy);
   }
-  for (const auto& plate :
-       plates_)  // after the exchanges, which also pass over edges that belong to the plate
+  // After the exchanges, which also pass over edges that belong to the plate.
+  for (const auto& plate : plates_)
     plate_momentum_[plate.side == fluid::Side::high] =
         fluid::bounce_before_shift(plate, f_, f_layout_);
 }
@@ -159,20 +156,10 @@ void FluidSolver::send_populations_forward() {
 /// After a shift pass: what was written to ghosts goes home, z, then y, then x.
 void FluidSolver::send_populations_home() {
   for (int axis = 2; axis >= 0; --axis) {
-    std::array<double*, 5> up{}, down{};
-    for (std::size_t k = 0; k < 5; ++k) {
-      up[k] = f_[static_cast<std::size_t>(d3q19::crossing(axis, 1)[k])];
-      down[k] = f_[static_cast<std::size_t>(d3q19::crossing(axis, -1)[k])];
-    }
-    const NodeBox face = with_halo(axis, 1);
-    const int n = block().size[axis];
-    NodeBox ghost_low = face, ghost_high = face, first = face, last = face;
-    ghost_low.lo[axis] = -1, ghost_low.hi[axis] = 0;
-    ghost_high.lo[axis] = n, ghost_high.hi[axis] = n + 1;
-    first.hi[axis] = 1;
-    last.lo[axis] = n - 1;
-    halo_.exchange(axis, f_layout_, {down, ghost_low}, {down, last}, {up, ghost_high}, {up, first},
-                   Combine::copy);
+    const auto up = crossing(axis, 1), down = crossing(axis, -1);
+    const Faces at = faces(axis, 1);
+    halo_.exchange(axis, f_layout_, {down, at.ghost_low}, {down, at.last}, {up, at.ghost_high},
+                   {up, at.first}, Combine::copy);
   }
   for (const auto& plate : plates_)
     plate_momentum_[plate.side == fluid::Side::high] =

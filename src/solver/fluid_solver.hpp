@@ -34,6 +34,8 @@ class FluidSolver {
 public:
   /// @throws Error when a block is thinner than the coupling halo (too many ranks along an axis)
   FluidSolver(const Neighbourhood& at, const FluidParameters& parameters);
+  FluidSolver(const FluidSolver&) = delete;  // its halo exchange looks at its own neighbourhood
+  FluidSolver& operator=(const FluidSolver&) = delete;
 
   /// Set density 1 and a velocity field with its gradient; `at` gives them for global node
   /// positions.
@@ -87,6 +89,11 @@ private:
   template <class Visit> void for_each_population(Visit visit);
   fluid::SweepFields sweep_fields();
   lattice::NodeBox with_halo(int axes_done, int halo) const;
+  struct Faces {
+    lattice::NodeBox whole, ghost_low, first, last, ghost_high;
+  };
+  Faces faces(int axis, int width) const;
+  std::array<double*, 5> crossing(int axis, int sense) const;
 
   Neighbourhood at_;
   FluidParameters parameters_;
