@@ -9,7 +9,8 @@ struct Relaxation {
                  ///< > 0
   double force[3] = {};  ///< uniform body force density
 
-  /// The single relaxation time of BGK: both rates 1/tau. Walls then lie off half-way by an amount that grows with tau.
+  /// The single relaxation time of BGK: both rates 1/tau. Walls then lie off half-way by an amount
+  /// that grows with tau.
   static Relaxation bgk(double tau) { return {tau, (tau - 0.5) * (tau - 0.5)}; }
 
   double viscosity() const { return (tau - 0.5) / 3.0; }

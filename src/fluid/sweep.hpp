@@ -28,6 +28,9 @@ struct SweepFields {
   std::ptrdiff_t n_row, n_plane;  ///< of force and u
   int padded_x;                   ///< row length in whole vectors of the widest level
   int y_lo, y_hi, z_lo, z_hi;
+  /// Where the block closes on itself along x its ghosts are kept while a row is in the cache: then
+  /// the number of nodes along x and the ghosts of force and velocity. Otherwise 0.
+  int wrap_x, n_halo;
 };
 
 /// Sweep the rows of `fields` with the TRT collision (fluid/trt.hpp), vectorised for `level`.

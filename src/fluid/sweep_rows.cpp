@@ -31,10 +31,41 @@ constexpr int ey[19] = {0, 0, 0, 1, -1, 0, 0, 1, -1, 1, -1, 0, 0, 0, 0, 1, 1, -1
 constexpr int ez[19] = {0, 0, 0, 0, 0, 1, -1, 0, 0, 0, 0, 1, 1, -1, -1, 1, -1, 1, -1};
 constexpr int opposite[19] = {0, 2, 1, 4, 3, 6, 5, 10, 9, 8, 7, 14, 13, 12, 11, 18, 17, 16, 15};
 
+/// Ghosts of a row's velocity, from its other end.
+[[gnu::always_inline]] inline void wrap_velocity(const SweepFields& s, std::ptrdiff_t node) {
+  for (int d = 0; d < 3; ++d) {
+    double* u = s.u[d] + node;
+    for (int k = 0; k < s.n_halo; ++k) {
+      u[-1 - k] = u[s.wrap_x - 1 - k];
+      u[s.wrap_x + k] = u[k];
+    }
+  }
+}
+
+/// After a local pass: the ghosts of a row take what will enter from its other end.
+[[gnu::always_inline]] inline void wrap_forward(const SweepFields& s, std::ptrdiff_t at) {
+  for (int i = 0; i < 19; ++i) {
+    if (ex[i] < 0) s.f[i][at - 1] = s.f[i][at + s.wrap_x - 1];
+    if (ex[i] > 0) s.f[i][at + s.wrap_x] = s.f[i][at];
+  }
+}
+
+/// After a shift pass: what was written to the ghosts of a row goes to its other end.
+[[gnu::always_inline]] inline void wrap_home(const SweepFields& s, std::ptrdiff_t at) {
+  for (int i = 0; i < 19; ++i) {
+    if (ex[i] > 0) s.f[i][at] = s.f[i][at + s.wrap_x];
+    if (ex[i] < 0) s.f[i][at + s.wrap_x - 1] = s.f[i][at - 1];
+  }
+}
+
+[[gnu::always_inline]] inline void wrap_plane_home(const SweepFields& s, int z) {
+  for (int y = s.y_lo; y < s.y_hi; ++y) wrap_home(s, y * s.f_row + z * s.f_plane);
+}
+
 template <Pass pass>
 [[gnu::always_inline]] inline void sweep(const SweepFields& s, const TrtRates<double>& rate,
                                          const double* body) {
-  for (int z = s.z_lo; z < s.z_hi; ++z)
+  for (int z = s.z_lo; z < s.z_hi; ++z) {
     for (int y = s.y_lo; y < s.y_hi; ++y) {
       const std::ptrdiff_t at = y * s.f_row + z * s.f_plane;
       const std::ptrdiff_t node = y * s.n_row + z * s.n_plane;
@@ -59,7 +90,15 @@ template <Pass pass>
 #pragma GCC unroll 19
         for (int i = 0; i < 19; ++i) store(to[i] + x, g[i]);
       }
+      if (s.wrap_x > 0) {
+        wrap_velocity(s, node);
+        if (pass == Pass::local) wrap_forward(s, at);
+      }
     }
+    // A plane has received all it will get once the next one is done.
+    if (pass == Pass::shift && s.wrap_x > 0 && z > s.z_lo) wrap_plane_home(s, z - 1);
+  }
+  if (pass == Pass::shift && s.wrap_x > 0 && s.z_hi > s.z_lo) wrap_plane_home(s, s.z_hi - 1);
 }
 
 }  // namespace

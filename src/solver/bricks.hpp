@@ -14,9 +14,18 @@ inline Neighbourhood bricks(MPI_Comm comm, std::array<int, 3> nodes, int plate_a
   int ranks = 1, rank = 0, grid[3] = {0, 0, 0};
   MPI_Comm_size(comm, &ranks);
   MPI_Comm_rank(comm, &rank);
-  MPI_Dims_create(ranks, 3, grid);
-  // Rows run along x: it is split last.
-  std::swap(grid[0], grid[2]);
+  // The split with the least surface, as LAMMPS makes it.
+  double least = -1;
+  for (int x = 1; x <= ranks; ++x)
+    for (int y = 1; x * y <= ranks; ++y) {
+      if (ranks % (x * y) != 0) continue;
+      const int z = ranks / (x * y);
+      const double a = static_cast<double>(nodes[0]) / x, b = static_cast<double>(nodes[1]) / y,
+                   c = static_cast<double>(nodes[2]) / z, surface = a * b + b * c + c * a;
+      if (least >= 0 && surface >= least) continue;
+      least = surface;
+      grid[0] = x, grid[1] = y, grid[2] = z;
+    }
   const int at[3] = {rank % grid[0], rank / grid[0] % grid[1], rank / (grid[0] * grid[1])};
   const auto rank_of = [&](const int(&p)[3]) { return p[0] + grid[0] * (p[1] + grid[1] * p[2]); };
   Neighbourhood here;

@@ -39,6 +39,7 @@ FluidSolver::FluidSolver(const Neighbourhood& at, const FluidParameters& paramet
   }
   for (std::size_t i = 0; i < 19; ++i)
     f_[i] = f_storage_.data() + i * (f_layout_.count + stagger) + f_layout_.origin;
+  wraps_x_ = at_.neighbour[0][0] == at_.rank && at_.neighbour[0][1] == at_.rank;
   if (const int axis = parameters.plate_axis; axis >= 0)
     for (int side = 0; side < 2; ++side)
       if (at_.neighbour[axis][side] == MPI_PROC_NULL)
@@ -52,7 +53,7 @@ void FluidSolver::set_node(int x, int y, int z, const std::array<double, 19>& g)
 
 void FluidSolver::finish_initialise() {
   next_ = fluid::Pass::local;
-  exchange_velocity();
+  exchange_velocity(0);
 }
 
 void FluidSolver::clear_forces() {
@@ -120,8 +121,8 @@ void FluidSolver::reduce_forces() {
     });
 }
 
-void FluidSolver::exchange_velocity() {
-  for (int axis = 0; axis < 3; ++axis) {
+void FluidSolver::exchange_velocity(int first_axis) {
+  for (int axis = first_axis; axis < 3; ++axis) {
     const Faces at = faces(axis, n_layout_.halo);
     halo_.exchange(axis, n_layout_, {u_, at.first}, {u_, at.ghost_high}, {u_, at.last},
                    {u_, at.ghost_low}, Combine::copy);
@@ -140,7 +141,7 @@ std::array<double*, 5> FluidSolver::crossing(int axis, int sense) const {
 
 /// Before a shift pass: ghosts take the neighbours' populations that will enter, x, then y, then z.
 void FluidSolver::send_populations_forward() {
-  for (int axis = 0; axis < 3; ++axis) {
+  for (int axis = wraps_x_ ? 1 : 0; axis < 3; ++axis) {
     const auto up = crossing(axis, 1), down = crossing(axis, -1);
     const Faces at = faces(axis, 1);
     // A local pass left f_i* in slot opposite(i): what goes up lies in the slots that point down.
@@ -155,15 +156,38 @@ void FluidSolver::send_populations_forward() {
 
 /// After a shift pass: what was written to ghosts goes home, z, then y, then x.
 void FluidSolver::send_populations_home() {
-  for (int axis = 2; axis >= 0; --axis) {
+  for (int axis = 2; axis >= (wraps_x_ ? 1 : 0); --axis) {
     const auto up = crossing(axis, 1), down = crossing(axis, -1);
     const Faces at = faces(axis, 1);
     halo_.exchange(axis, f_layout_, {down, at.ghost_low}, {down, at.last}, {up, at.ghost_high},
                    {up, at.first}, Combine::copy);
   }
+  if (wraps_x_) wrap_edges_home();
   for (const auto& plate : plates_)
     plate_momentum_[plate.side == fluid::Side::high] =
         fluid::bounce_after_shift(plate, f_, f_layout_);
+}
+
+/// Rows that got populations from neighbours along y and z pass on those that cross x as well.
+void FluidSolver::wrap_edges_home() {
+  const int n = block().size[0];
+  const auto up = crossing(0, 1), down = crossing(0, -1);
+  const auto wrap_rows = [&](const NodeBox& box) {
+    for_each_row(box, f_layout_, [&](std::ptrdiff_t row, int) {
+      for (std::size_t k = 0; k < 5; ++k) {
+        up[k][row] = up[k][row + n];
+        down[k][row + n - 1] = down[k][row - 1];
+      }
+    });
+  };
+  for (const int axis : {1, 2}) {
+    NodeBox edge = with_halo(0, 0);
+    edge.hi[axis] = 1;
+    wrap_rows(edge);
+    edge.lo[axis] = block().size[axis] - 1;
+    edge.hi[axis] = block().size[axis];
+    wrap_rows(edge);
+  }
 }
 
 fluid::SweepFields FluidSolver::sweep_fields() {
@@ -174,6 +198,8 @@ fluid::SweepFields FluidSolver::sweep_fields() {
   s.f_row = f_layout_.row, s.f_plane = f_layout_.plane;
   s.n_row = n_layout_.row, s.n_plane = n_layout_.plane;
   s.padded_x = f_layout_.padded_x;
+  s.wrap_x = wraps_x_ ? block().size[0] : 0;
+  s.n_halo = n_layout_.halo;
   s.y_hi = block().size[1];
   s.z_hi = block().size[2];
   return s;
@@ -185,7 +211,7 @@ void FluidSolver::step() {
   fluid::sweep_trt(next_, sweep_fields(), parameters_.relaxation, simd_);
   if (next_ == fluid::Pass::shift) send_populations_home();
   next_ = next_ == fluid::Pass::local ? fluid::Pass::shift : fluid::Pass::local;
-  exchange_velocity();
+  exchange_velocity(wraps_x_ ? 1 : 0);
 }
 
 /// Visit the 19 populations of every owned node as they will be collided next: visit(node in

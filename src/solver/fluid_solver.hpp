@@ -85,7 +85,8 @@ private:
   void reduce_forces();
   void send_populations_forward();
   void send_populations_home();
-  void exchange_velocity();
+  void exchange_velocity(int first_axis);
+  void wrap_edges_home();
   template <class Visit> void for_each_population(Visit visit);
   fluid::SweepFields sweep_fields();
   lattice::NodeBox with_halo(int axes_done, int halo) const;
@@ -104,6 +105,7 @@ private:
   fluid::NodeVector force_{}, u_{};
   HaloExchange halo_;
   std::vector<fluid::Plate> plates_;
+  bool wraps_x_ = false;  // this rank is its own neighbour along x: the sweep keeps those ghosts
   fluid::Pass next_ = fluid::Pass::local;
   bool forces_clear_ = true;
   Vec3 node_force_, plate_share_;
