@@ -8,6 +8,7 @@
 
 #include "app/bench.hpp"
 #include "app/validation.hpp"
+#include "case/break_off.hpp"
 #include "case/card.hpp"
 #include "case/case_file.hpp"
 #include "case/run.hpp"
@@ -19,10 +20,6 @@
 namespace {
 
 namespace case_ = hemomag::case_;
-
-/// What MPI_Abort returns: LAMMPS always says 1, but a case that breaks off in mid-run went
-/// unstable.
-int abort_code = 1;
 
 int rank() {
   int r = 0;
@@ -48,14 +45,9 @@ int check(const case_::Case& c) {
 }
 
 int lmp(const std::vector<std::string>& arguments) {
-  try {
-    hemomag::lammps::Host host(arguments, MPI_COMM_WORLD);
-    host.script();
-    return 0;
-  } catch (const hemomag::Error& e) {
-    if (rank() == 0) std::fprintf(stderr, "%s\n", e.what());
-    return 1;
-  }
+  hemomag::lammps::Host host(arguments, MPI_COMM_WORLD);
+  host.script();
+  return 0;
 }
 
 int not_available(const char* what) {
@@ -117,7 +109,6 @@ int parse_and_run(int argc, char** argv) {
   if (app.got_subcommand("bench")) return hemomag::app::bench(names, json);
   if (app.got_subcommand("check")) return with_case(path, overrides, check);
   if (out.empty()) out = "out/" + std::filesystem::path(path).stem().string();
-  abort_code = 3;
   return with_case(path, overrides, [&](const case_::Case& c) {
     return case_::run_case(c, {out, force}, MPI_COMM_WORLD);
   });
@@ -126,11 +117,8 @@ int parse_and_run(int argc, char** argv) {
 }  // namespace
 
 /// MPI's profiling interface lets a program see its own calls: the one by which LAMMPS ends a run
-/// in which a single rank met an error gets the exit code of this program.
-extern "C" int MPI_Abort(MPI_Comm comm, int) {
-  std::fprintf(stderr, "hemomag: the run broke off; the end of its log.lammps says where\n");
-  return PMPI_Abort(comm, abort_code);
-}
+/// in which a single rank met an error gets this program's exit code.
+extern "C" int MPI_Abort(MPI_Comm comm, int) { return PMPI_Abort(comm, case_::code_of_abort()); }
 
 int main(int argc, char** argv) {
   MPI_Init(&argc, &argv);

@@ -38,7 +38,7 @@ struct Numerics {
   double tau = 1.0;
   std::optional<double> cell_reynolds;  ///< inertia scaling; empty: the real density
   std::optional<double> dt;             ///< [s]; excludes cell_reynolds
-  std::string scheme = "trt";            ///< trt, bgk
+  std::string scheme = "trt";           ///< trt, bgk
   std::string kernel = "cosine4";
 };
 

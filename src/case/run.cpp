@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "case/break_off.hpp"
 #include "case/card.hpp"
 #include "case/cells_data.hpp"
 #include "case/lattice_units.hpp"
@@ -20,7 +21,7 @@
 namespace hemomag::case_ {
 namespace {
 
-constexpr int done = 0, bad_input = 2, unstable = 3, file_trouble = 4;
+constexpr int done = 0, bad_input = 2, file_trouble = 4;
 
 /// What rank 0 decided, told to all.
 int agree(int code, MPI_Comm comm) {
@@ -134,9 +135,11 @@ int run_case(const Case& c, const RunOptions& options, MPI_Comm comm) {
   code = agree(code, comm);
   if (code != done) return code;
 
+  // From here on LAMMPS itself ends the process when something goes wrong (break_off.hpp).
   const auto home = std::filesystem::current_path();
   std::filesystem::current_path(options.out);
   try {
+    const RunInProgress running(rank);
     lammps::Host host({"-screen", "none", "-log", "log.lammps"}, comm);
     const double start = MPI_Wtime();
     execute(host, "in.lammps", lattice_units(c).dt);
@@ -147,8 +150,7 @@ int run_case(const Case& c, const RunOptions& options, MPI_Comm comm) {
       print_summary(results, options.out);
     }
   } catch (const std::exception& e) {
-    code = unstable;
-    if (rank == 0) fail(e.what(), code);
+    code = rank == 0 ? fail(e.what(), file_trouble) : file_trouble;
   }
   std::filesystem::current_path(home);
   return code;

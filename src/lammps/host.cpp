@@ -1,7 +1,5 @@
 #include "lammps/host.hpp"
 
-#include <exception>
-
 #include "input.h"
 #include "lammps.h"
 #include "lammps/style_table.hpp"
@@ -20,30 +18,13 @@ Host::Host(std::vector<std::string> arguments, MPI_Comm comm) : arguments_(std::
 
 Host::~Host() = default;
 
-/// LAMMPS was built with exceptions, whose type its package does not ship.
-template <class Work> void Host::guarded(Work work) {
-  try {
-    work();
-  } catch (const Error&) {
-    throw;
-  } catch (const std::exception& e) {
-    std::string message = e.what();
-    while (!message.empty() && message.back() == '\n') message.pop_back();
-    throw Error(message);
-  }
-}
-
-void Host::command(const std::string& line) {
-  guarded([&] { lmp_->input->one(line); });
-}
+void Host::command(const std::string& line) { lmp_->input->one(line); }
 
 void Host::script(const std::string& path) {
-  guarded([&] {
-    if (path.empty())
-      lmp_->input->file();
-    else
-      lmp_->input->file(path.c_str());
-  });
+  if (path.empty())
+    lmp_->input->file();
+  else
+    lmp_->input->file(path.c_str());
 }
 
 }  // namespace hemomag::lammps

@@ -5,16 +5,14 @@
 
 #include <mpi.h>
 
-#include "base/error.hpp"
-
 namespace LAMMPS_NS {
 class LAMMPS;
 }
 
 namespace hemomag::lammps {
 
-/// One LAMMPS instance that knows the hemo styles. Fatal errors that all ranks meet arrive as
-/// Error; those that one rank meets alone end the program through MPI_Abort, as in LAMMPS itself.
+/// One LAMMPS instance that knows the hemo styles. Its fatal errors end the process, by exit(1)
+/// when all ranks meet them and by MPI_Abort when one does, as in LAMMPS itself.
 class Host {
 public:
   /// @param arguments  LAMMPS command-line options, without the program name, e.g. {"-screen",
@@ -32,8 +30,6 @@ public:
   void script(const std::string& path = {});
 
 private:
-  template <class Work> void guarded(Work work);
-
   std::vector<std::string> arguments_;  // LAMMPS keeps pointers into these
   std::unique_ptr<LAMMPS_NS::LAMMPS> lmp_;
 };

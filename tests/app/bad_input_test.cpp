@@ -214,6 +214,17 @@ TEST_F(BadInput, AnExistingDirectoryIsKept) {
   EXPECT_FALSE(std::filesystem::exists(directory_ / "result" / "case.toml"));
 }
 
+TEST_F(BadInput, ARunThatBreaksOffExitsWithThreeAndSaysWhy) {
+  // An absurd attraction between two cells: the fluid passes its speed limit.
+  const Outcome outcome = run(
+      changed("[[carrier]]", "[[cell]]\nvertices = 642\ncount = 2\nplacement = \"grid\"\n"
+                             "[contact]\nmorse_depth = 1e9\nmorse_cutoff = \"3 um\"\n[[carrier]]"),
+      "--set 'channel.size=[\"9 um\", \"9 um\", \"9 um\"]'");
+  EXPECT_EQ(outcome.code, 3) << outcome.error;
+  EXPECT_NE(outcome.error.find("the run broke off: ERROR"), std::string::npos) << outcome.error;
+  EXPECT_TRUE(std::filesystem::exists(directory_ / "result" / "log.lammps"));
+}
+
 TEST_F(BadInput, TheGoodFileIsGood) {
   const Outcome outcome = run(good);
   EXPECT_EQ(outcome.code, 0) << outcome.error;

@@ -1,0 +1,106 @@
+// fix hemo/watch and the fluid end a run that is not sound, and say where and why.
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+namespace {
+
+const std::vector<std::string> channel = {"units lj",
+                                          "atom_style molecular",
+                                          "newton on",
+                                          "boundary p p f",
+                                          "region b block 0 12 0 12 0 12",
+                                          "create_box 1 b",
+                                          "mass * 1",
+                                          "neighbor 1.0 bin",
+                                          "neigh_modify every 1 delay 0 check yes",
+                                          "timestep 1.0"};
+
+/// What a script says at its end; empty when it runs through.
+std::string outcome(const std::vector<std::string>& script) {
+  const auto file = std::filesystem::temp_directory_path() /
+                    ("hemomag_watch_" + std::to_string(getpid()) + ".in");
+  {
+    std::ofstream out(file);
+    for (const auto& line : channel) out << line << "\n";
+    for (const auto& line : script) out << line << "\n";
+  }
+  const std::string command =
+      "mpirun -np 2 " HEMOMAG_BINARY " lmp -log none -in " + file.string() + " 2>&1";
+  std::FILE* pipe = popen(command.c_str(), "r");
+  std::string said;
+  std::array<char, 512> buffer;
+  while (std::fgets(buffer.data(), buffer.size(), pipe)) said += buffer.data();
+  const int status = pclose(pipe);
+  std::filesystem::remove(file);
+  return status == 0 ? std::string() : said;
+}
+
+void expect_words(const std::string& text, const std::vector<std::string>& words) {
+  for (const auto& word : words)
+    EXPECT_NE(text.find(word), std::string::npos) << word << " is not in: " << text;
+}
+
+TEST(Watch, EndsARunWhoseFluidIsTooFast) {
+  expect_words(
+      outcome({"pair_style zero 1", "pair_coeff * *",
+               "fix fluid all hemo/fluid tau 1 plates z lower 0 0 0 upper 0 0.25 0 initial linear",
+               "fix watch all hemo/watch 10 mach_max 0.3", "run 100"}),
+      {"fix hemo/watch", "step 0", "Mach number is 0.41", "limit is 0.3"});
+}
+
+TEST(Watch, EndsARunWhoseCarriersLeft) {
+  // delete_atoms stands for a carrier that vanished without a word.
+  expect_words(
+      outcome({"create_atoms 1 single 3 3 3", "create_atoms 1 single 6 6 6", "pair_style zero 1",
+               "pair_coeff * *", "fix drag all hemo/drag radius 1 0.25",
+               "fix fluid all hemo/fluid tau 1 plates z lower 0 0 0 upper 0 0 0",
+               "fix watch all hemo/watch 10 carriers all", "run 10", "group gone id 2",
+               "delete_atoms group gone", "run 10"}),
+      {"fix hemo/watch", "1 carriers", "began with 2"});
+}
+
+TEST(Watch, PassesASoundRun) {
+  EXPECT_EQ(outcome({"create_atoms 1 single 3 3 3", "pair_style zero 1", "pair_coeff * *",
+                     "fix drag all hemo/drag radius 1 0.25",
+                     "fix fluid all hemo/fluid tau 1 plates z lower 0 0 0 upper 0 0.02 0",
+                     "fix watch all hemo/watch 10 carriers all", "run 50"}),
+            "");
+}
+
+TEST(Fluid, RefusesWhatItCannotDo) {
+  const std::vector<std::string> start = {"pair_style zero 1", "pair_coeff * *"};
+  const auto with = [&](const std::vector<std::string>& lines) {
+    auto script = start;
+    script.insert(script.end(), lines.begin(), lines.end());
+    return outcome(script);
+  };
+  expect_words(with({"fix fluid all hemo/fluid tau 0.5"}), {"tau = 0.5", "need tau > 0.5"});
+  expect_words(with({"fix fluid all hemo/fluid tua 1"}), {"unknown keyword tua", "accepted: tau"});
+  expect_words(with({"fix fluid all hemo/fluid tau 1", "run 1"}),
+               {"axis z has no plates and must be periodic"});
+  expect_words(with({"fix fluid all hemo/fluid tau 1 kernel box3"}),
+               {"box3", "accepted: cosine4, peskin4"});
+  expect_words(with({"fix fluid all hemo/fluid tau 1 plates z lower 0 0 0 upper 0 0 0",
+                     "fix push all addforce 0 0 1", "run 1"}),
+               {"must be the last fix that adds forces"});
+  expect_words(with({"fix fluid all hemo/fluid tau 1 plates z lower 0 0 0 upper 0 0 0",
+                     "timestep 0.5", "run 1"}),
+               {"timestep 1.0"});
+}
+
+TEST(Drag, RefusesCarriersLargerThanTheKernel) {
+  expect_words(
+      outcome({"create_atoms 1 single 3 3 3", "pair_style zero 1", "pair_coeff * *",
+               "fix drag all hemo/drag radius 1 1.4",
+               "fix fluid all hemo/fluid tau 1 plates z lower 0 0 0 upper 0 0 0", "run 1"}),
+      {"radius 1.4", "hydrodynamic radius 1.356"});
+}
+
+}  // namespace
