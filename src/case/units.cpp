@@ -80,7 +80,7 @@ Unit parse_unit(std::string_view text) {
 double quantity(std::string_view text, const Dimension& dimension) {
   const std::string expected =
       std::string(dimension.noun) + " is expected, e.g. \"" + dimension.example + "\"";
-  const std::string given = "\"" + std::string(text) + "\"";
+  const std::string given = '"' + std::string(text) + '"';
   const std::string_view body = trim(text);
   double number = 0;
   const char* first = body.data() + (!body.empty() && body.front() == '+' ? 1 : 0);

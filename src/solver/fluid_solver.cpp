@@ -59,7 +59,7 @@ void FluidSolver::finish_initialise() {
 void FluidSolver::clear_forces() {
   if (!forces_clear_) std::fill_n(force_storage_.data(), force_storage_.size(), 0.0);
   forces_clear_ = true;
-  node_force_ = plate_share_ = {};
+  plate_share_ = {};
 }
 
 std::ptrdiff_t FluidSolver::spread(std::span<const Vec3> x, const ibm::Selection& selection,
@@ -115,10 +115,6 @@ void FluidSolver::reduce_forces() {
     halo_.exchange(axis, n_layout_, {force_, at.ghost_low}, {force_, at.last},
                    {force_, at.ghost_high}, {force_, at.first}, Combine::add);
   }
-  for (int d = 0; d < 3; ++d)
-    for_each_row(with_halo(0, 0), n_layout_, [&](std::ptrdiff_t row, int n) {
-      for (int x = 0; x < n; ++x) node_force_[static_cast<std::size_t>(d)] += force_[d][row + x];
-    });
 }
 
 void FluidSolver::exchange_velocity(int first_axis) {
@@ -259,6 +255,15 @@ double FluidSolver::max_speed() const {
     }
   });
   return std::sqrt(largest);
+}
+
+Vec3 FluidSolver::node_force() const {
+  Vec3 sum;
+  for (int d = 0; d < 3; ++d)
+    for_each_row(with_halo(0, 0), n_layout_, [&](std::ptrdiff_t row, int n) {
+      for (int x = 0; x < n; ++x) sum[static_cast<std::size_t>(d)] += force_[d][row + x];
+    });
+  return sum;
 }
 
 double FluidSolver::excess_mass() {

@@ -73,7 +73,7 @@ public:
   /// full.
   Vec3 momentum();
   /// Force spread on nodes of this rank in the last step (body force left out).
-  Vec3 node_force() const { return node_force_; }
+  Vec3 node_force() const;
   /// Part of the spread force that went to the plates, in the last step, on this rank.
   Vec3 plate_share() const { return plate_share_; }
   /// Momentum given to the low and high plate by bounce-back in the last step, on this rank.
@@ -108,7 +108,7 @@ private:
   bool wraps_x_ = false;  // this rank is its own neighbour along x: the sweep keeps those ghosts
   fluid::Pass next_ = fluid::Pass::local;
   bool forces_clear_ = true;
-  Vec3 node_force_, plate_share_;
+  Vec3 plate_share_;
   std::array<Vec3, 2> plate_momentum_{};
 };
 
