@@ -151,7 +151,7 @@ const std::vector<Key>& table() {
       amount("run", "time", time, 0, inf, true, "", "simulated time; or give steps"),
       integer("run", "steps", 1, 9.007e15, "", "number of steps; or give time"),
       amount("run", "checkpoint", time, 0, inf, true, "10 min",
-             "wall time between checkpoints; kept for a later version"),
+             "wall time between checkpoints; accepted, but this version writes none"),
       {"output",
        "fields",
        Kind::quantity,
@@ -243,8 +243,6 @@ std::string accepted(const Key& key) {
     return "true or false";
   case Kind::choice:
     return listed(key.choices);
-  case Kind::list:
-    return "a list";
   case Kind::integer:
     words = "a whole number";
     break;

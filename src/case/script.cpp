@@ -14,7 +14,6 @@ namespace {
 constexpr double skin = 1.2;  // nodes; flow carries atoms past half of it every dozen steps
 constexpr double dipole_radii =
     12;  // cut-off of the dipole forces: 0.08 % of the contact pull beyond it
-constexpr double soft_kappa = 30;
 constexpr double mesh_reference = 3286;  // vertices for which contact energies are given
 constexpr int watch_every = 100;
 

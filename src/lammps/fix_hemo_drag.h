@@ -40,14 +40,14 @@ public:
   int pack_reverse_comm(int, int, double*) override;
   void unpack_reverse_comm(int, int*, double*) override;
 
+  static constexpr int most_substeps = 16;
+
   bool feedback() const { return feedback_; }
 
 private:
   double bare_friction(double radius) const;
   void choose_substeps();
   void stiff_forces();
-
-  static constexpr int most_substeps = 16;
 
   std::vector<double> radius_;    // by type, 0: not a carrier
   std::vector<double> mobility_;  // 1/Gamma_bare by type
