@@ -5,34 +5,33 @@
 namespace hemomag::ibm {
 namespace {
 
-template <class T>
-TransferArgs arguments(DeltaKernel kernel, const NodeVectorView<T>& nodes,
-                       std::span<const Vec3> x_v, const Selection& selection) {
-  TransferArgs a{};
+/// @param value  velocity or force of every point; only written by interpolate
+template <class Node>
+TransferArgs<Node> arguments(DeltaKernel kernel, const NodeVectorView<Node>& nodes,
+                             std::span<const Vec3> x_v, const Selection& selection,
+                             const Vec3* value) {
+  TransferArgs<Node> a{};
   a.kernel = static_cast<int>(kernel);
   a.row = nodes.layout.row;
   a.plane = nodes.layout.plane;
   a.lowest = -nodes.layout.halo;
-  for (int d = 0; d < 3; ++d) {
-    a.node[d] = const_cast<double*>(nodes.at[d]);
+  for (std::size_t d = 0; d < 3; ++d) {
+    a.node[d] = nodes.at[d];
     a.begin[d] = nodes.begin[d];
     a.highest[d] = nodes.layout.size[d] + nodes.layout.halo - 1;
   }
-  a.x = x_v.empty() ? nullptr : &x_v[0].x;
   a.n = static_cast<std::ptrdiff_t>(x_v.size());
+  if (a.n > 0) {
+    a.x = &x_v[0].x;
+    a.value = const_cast<double*>(&value->x);
+  }
   a.mask = selection.mask.data();
   a.bits = selection.bits;
   a.without = selection.without;
   return a;
 }
 
-}  // namespace
-
-std::ptrdiff_t interpolate(DeltaKernel kernel, const NodeVectorView<const double>& u,
-                           std::span<const Vec3> x_v, const Selection& selection,
-                           std::span<Vec3> u_v, SimdLevel level) {
-  TransferArgs a = arguments(kernel, u, x_v, selection);
-  a.value = u_v.empty() ? nullptr : &u_v[0].x;
+template <class Node> std::ptrdiff_t interpolate(const TransferArgs<Node>& a, SimdLevel level) {
   switch (level) {
   case SimdLevel::sse2:
     return sse2::interpolate(a);
@@ -44,11 +43,7 @@ std::ptrdiff_t interpolate(DeltaKernel kernel, const NodeVectorView<const double
   return -1;
 }
 
-std::ptrdiff_t spread(DeltaKernel kernel, const NodeVectorView<double>& force,
-                      std::span<const Vec3> x_v, const Selection& selection,
-                      std::span<const Vec3> f_v, SimdLevel level) {
-  TransferArgs a = arguments(kernel, force, x_v, selection);
-  a.value = f_v.empty() ? nullptr : const_cast<double*>(&f_v[0].x);
+template <class Node> std::ptrdiff_t spread(const TransferArgs<Node>& a, SimdLevel level) {
   switch (level) {
   case SimdLevel::sse2:
     return sse2::spread(a);
@@ -58,6 +53,32 @@ std::ptrdiff_t spread(DeltaKernel kernel, const NodeVectorView<double>& force,
     return avx512::spread(a);
   }
   return -1;
+}
+
+}  // namespace
+
+std::ptrdiff_t interpolate(DeltaKernel kernel, const NodeVectorView<const double>& u,
+                           std::span<const Vec3> x_v, const Selection& selection,
+                           std::span<Vec3> u_v, SimdLevel level) {
+  return interpolate(arguments(kernel, u, x_v, selection, u_v.data()), level);
+}
+
+std::ptrdiff_t interpolate(DeltaKernel kernel, const NodeVectorView<const float>& u,
+                           std::span<const Vec3> x_v, const Selection& selection,
+                           std::span<Vec3> u_v, SimdLevel level) {
+  return interpolate(arguments(kernel, u, x_v, selection, u_v.data()), level);
+}
+
+std::ptrdiff_t spread(DeltaKernel kernel, const NodeVectorView<double>& force,
+                      std::span<const Vec3> x_v, const Selection& selection,
+                      std::span<const Vec3> f_v, SimdLevel level) {
+  return spread(arguments(kernel, force, x_v, selection, f_v.data()), level);
+}
+
+std::ptrdiff_t spread(DeltaKernel kernel, const NodeVectorView<float>& force,
+                      std::span<const Vec3> x_v, const Selection& selection,
+                      std::span<const Vec3> f_v, SimdLevel level) {
+  return spread(arguments(kernel, force, x_v, selection, f_v.data()), level);
 }
 
 }  // namespace hemomag::ibm
