@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <deque>
 
 #include <mpi.h>
 #include <nlohmann/json.hpp>
@@ -51,14 +50,14 @@ void bench_fluid(bool json) {
 
   std::vector<std::pair<const char*, fluid::Relaxation>> schemes = {
       {"trt", {1.0, 3.0 / 16}}, {"bgk", fluid::Relaxation::bgk(1.0)}};
-  std::deque<solver::FluidSolver> fluids;
+  std::vector<std::unique_ptr<solver::FluidSolver>> fluids;
   for (const auto& [name, relaxation] : schemes) {
     solver::FluidParameters p;
     p.relaxation = relaxation;
     p.plate_axis = 2;
     p.plate_velocity[1] = {0, 0.03, 0};
-    fluids.emplace_back(solver::bricks(MPI_COMM_WORLD, nodes, 2), p);
-    fluids.back().initialise(
+    fluids.push_back(solver::make_fluid(solver::bricks(MPI_COMM_WORLD, nodes, 2), p));
+    fluids.back()->initialise(
         [](const Vec3&) { return std::pair<Vec3, fluid::VelocityGradient>{}; });
   }
   constexpr std::size_t copied = std::size_t{1} << 24;
@@ -72,7 +71,7 @@ void bench_fluid(bool json) {
     if (r > 0) copy_seconds.push_back(copy);
     for (std::size_t s = 0; s < schemes.size(); ++s) {
       const double seconds = timed([&] {
-        for (int t = 0; t < steps; ++t) fluids[s].step();
+        for (int t = 0; t < steps; ++t) fluids[s]->step();
       });
       if (r > 0) step_seconds[s].push_back(seconds / steps);
     }

@@ -26,8 +26,8 @@ using Flow = std::pair<Vec3, VelocityGradient>;
 
 Flow at_rest(const Vec3&) { return {}; }
 
-FluidSolver make_fluid(std::array<int, 3> nodes, const FluidParameters& p) {
-  return {solver::bricks(MPI_COMM_SELF, nodes, p.plate_axis), p};
+std::unique_ptr<FluidSolver> make_fluid(std::array<int, 3> nodes, const FluidParameters& p) {
+  return solver::make_fluid(solver::bricks(MPI_COMM_SELF, nodes, p.plate_axis), p);
 }
 
 void run(FluidSolver& fluid, int steps) {
@@ -77,7 +77,8 @@ std::vector<Finding> couette() {
       p.relaxation.tau = tau;
       p.plate_axis = axis;
       p.plate_velocity[1][along] = U;
-      FluidSolver fluid = make_fluid(n, p);
+      const auto owner = make_fluid(n, p);
+      FluidSolver& fluid = *owner;
       fluid.initialise(at_rest);
       run(fluid, static_cast<int>(30 * H * H / (pi * pi * fluid.viscosity())));
       const double error = largest_error(fluid, [&](const Vec3& x) {
@@ -98,7 +99,8 @@ double startup_error(int H) {
   FluidParameters p;
   p.plate_axis = 2;
   p.plate_velocity[1] = {0, U, 0};
-  FluidSolver fluid = make_fluid({4, 4, H}, p);
+  const auto owner = make_fluid({4, 4, H}, p);
+  FluidSolver& fluid = *owner;
   fluid.initialise(at_rest);
   const int steps = static_cast<int>(0.1 * H * H / fluid.viscosity());
   run(fluid, steps);
@@ -134,7 +136,8 @@ std::vector<Finding> poiseuille() {
     p.plate_axis = 2;
     const double nu = p.relaxation.viscosity(), g = 8 * nu * peak / (H * H);
     p.relaxation.force[1] = g;
-    FluidSolver fluid = make_fluid({4, 4, H}, p);
+    const auto owner = make_fluid({4, 4, H}, p);
+  FluidSolver& fluid = *owner;
     fluid.initialise(at_rest);
     run(fluid, static_cast<int>(30 * H * H / (pi * pi * nu)) + 200);
     const double error = largest_error(fluid, [&](const Vec3& x) {
@@ -152,7 +155,8 @@ double shear_wave_viscosity(const Relaxation& relaxation, int L, double U) {
   const double k = 2 * pi / L;
   FluidParameters p;
   p.relaxation = relaxation;
-  FluidSolver fluid = make_fluid({L, 4, 4}, p);
+  const auto owner = make_fluid({L, 4, 4}, p);
+  FluidSolver& fluid = *owner;
   fluid.initialise([&](const Vec3& x) {
     Flow flow;
     flow.first = {U, 1e-4 * std::sin(k * x.x), 0};
@@ -214,7 +218,8 @@ double taylor_green_viscosity(const Relaxation& relaxation, int L) {
                speed = 0.16 / L;  // diffusive scaling: the Mach number falls with the spacing
   FluidParameters p;
   p.relaxation = relaxation;
-  FluidSolver fluid = make_fluid({L, L, 4}, p);
+  const auto owner = make_fluid({L, L, 4}, p);
+  FluidSolver& fluid = *owner;
   fluid.initialise([&](const Vec3& x) {
     const double sx = std::sin(k * x.x), cx = std::cos(k * x.x), sy = std::sin(k * x.y),
                  cy = std::cos(k * x.y);
@@ -261,7 +266,8 @@ std::vector<Finding> mass() {
   p.plate_axis = 2;
   p.plate_velocity[1] = {0.02, 0.05, 0};
   p.relaxation.force[0] = 1e-5;
-  FluidSolver fluid = make_fluid({12, 12, 12}, p);
+  const auto owner = make_fluid({12, 12, 12}, p);
+  FluidSolver& fluid = *owner;
   fluid.initialise([](const Vec3& x) {
     Flow flow;
     flow.first = {0.02 * std::sin(2 * pi * x.y / 12), 0.02 * std::cos(2 * pi * x.x / 12), 0};

@@ -11,40 +11,34 @@ Vec3 direction(int i) {
   return {static_cast<double>(e[i][0]), static_cast<double>(e[i][1]), static_cast<double>(e[i][2])};
 }
 
-/// The layer of nodes that touch the plate.
-lattice::NodeBox first_layer(const Plate& plate, const lattice::NodeLayout& layout) {
-  lattice::NodeBox box{{0, 0, 0}, layout.size};
-  const int at = plate.side == Side::low ? 0 : layout.size[plate.axis] - 1;
-  box.lo[plate.axis] = at;
-  box.hi[plate.axis] = at + 1;
-  return box;
-}
-
 enum class Moment { before_shift, after_shift };
 
 // The population that leaves the fluid along j and the one that returns along opposite(j) sit at
-//              leaving             returning
-//   before     slot opp(j) of x    slot j of x + e_j... seen from opp(j): slot opp(opp(j)) of x -
-//   e_opp(j) after      slot j of x + e_j   slot opp(j) of x
+//              leaving              returning
+//   before     slot opp(j) of x     slot j of x + e_j
+//   after      slot j of x + e_j    slot opp(j) of x
 // so both moments copy between the same two places, in opposite senses.
-template <Moment moment>
-Vec3 bounce(const Plate& plate, const Populations& f, const lattice::NodeLayout& layout) {
+template <Moment moment, class Real>
+Vec3 bounce(const Plate& plate, const Populations<Real>& f, const lattice::NodeLayout& layout,
+            double streamed) {
   Vec3 given;
   for (const int j : crossing(plate.axis, plate.side == Side::low ? -1 : 1)) {
     const int back = opposite[j];
-    const double push = 6.0 * w[j] * dot(direction(back), plate.velocity);
+    const Real push = static_cast<Real>(6.0 * streamed * w[j] * dot(direction(back), plate.velocity));
     const std::ptrdiff_t beyond = layout.index(e[j][0], e[j][1], e[j][2]);
     double sum = 0;
     for_each_row(first_layer(plate, layout), layout, [&](std::ptrdiff_t row, int n) {
-      double* inside = f[back] + row;
-      double* outside = f[j] + row + beyond;
-      const double* leaving = moment == Moment::before_shift ? inside : outside;
-      double* returning = moment == Moment::before_shift ? outside : inside;
+      Real* inside = f[back] + row;
+      Real* outside = f[j] + row + beyond;
+      const Real* leaving = moment == Moment::before_shift ? inside : outside;
+      Real* returning = moment == Moment::before_shift ? outside : inside;
+      Real given_by_row = 0;
       for (int x = 0; x < n; ++x) {
-        const double out = leaving[x];
+        const Real out = leaving[x];
         returning[x] = out + push;
-        sum += 2.0 * (out + w[j]) + push;
+        given_by_row += out;
       }
+      sum += 2.0 * (given_by_row + n * streamed * w[j]) + n * push;
     });
     given += sum * direction(j);
   }
@@ -70,20 +64,31 @@ void for_each_mirror_row(const Plate& plate, const lattice::NodeLayout& layout,
 
 }  // namespace
 
-Vec3 bounce_before_shift(const Plate& plate, const Populations& f,
-                         const lattice::NodeLayout& layout) {
-  return bounce<Moment::before_shift>(plate, f, layout);
+lattice::NodeBox first_layer(const Plate& plate, const lattice::NodeLayout& layout) {
+  lattice::NodeBox box{{0, 0, 0}, layout.size};
+  const int at = plate.side == Side::low ? 0 : layout.size[plate.axis] - 1;
+  box.lo[plate.axis] = at;
+  box.hi[plate.axis] = at + 1;
+  return box;
 }
 
-Vec3 bounce_after_shift(const Plate& plate, const Populations& f,
-                        const lattice::NodeLayout& layout) {
-  return bounce<Moment::after_shift>(plate, f, layout);
+template <class Real>
+Vec3 bounce_before_shift(const Plate& plate, const Populations<Real>& f,
+                         const lattice::NodeLayout& layout, double streamed) {
+  return bounce<Moment::before_shift>(plate, f, layout, streamed);
 }
 
-void fill_mirror_velocity(const Plate& plate, const NodeVector& u,
+template <class Real>
+Vec3 bounce_after_shift(const Plate& plate, const Populations<Real>& f,
+                        const lattice::NodeLayout& layout, double streamed) {
+  return bounce<Moment::after_shift>(plate, f, layout, streamed);
+}
+
+template <class Real>
+void fill_mirror_velocity(const Plate& plate, const NodeVector<Real>& u,
                           const lattice::NodeLayout& layout, const lattice::NodeBox& box) {
-  for (int d = 0; d < 3; ++d) {
-    const double twice = 2.0 * plate.velocity[static_cast<std::size_t>(d)];
+  for (std::size_t d = 0; d < 3; ++d) {
+    const Real twice = static_cast<Real>(2.0 * plate.velocity[d]);
     for_each_mirror_row(plate, layout, box,
                         [&](std::ptrdiff_t ghost, std::ptrdiff_t mirror, int n) {
                           for (int x = 0; x < n; ++x) u[d][ghost + x] = twice - u[d][mirror + x];
@@ -91,10 +96,11 @@ void fill_mirror_velocity(const Plate& plate, const NodeVector& u,
   }
 }
 
-Vec3 fold_mirror_force(const Plate& plate, const NodeVector& force,
+template <class Real>
+Vec3 fold_mirror_force(const Plate& plate, const NodeVector<Real>& force,
                        const lattice::NodeLayout& layout, const lattice::NodeBox& box) {
   Vec3 share;
-  for (int d = 0; d < 3; ++d) {
+  for (std::size_t d = 0; d < 3; ++d) {
     double sum = 0;
     for_each_mirror_row(plate, layout, box,
                         [&](std::ptrdiff_t ghost, std::ptrdiff_t mirror, int n) {
@@ -104,9 +110,22 @@ Vec3 fold_mirror_force(const Plate& plate, const NodeVector& force,
                             force[d][ghost + x] = 0;
                           }
                         });
-    share[static_cast<std::size_t>(d)] = 2 * sum;
+    share[d] = 2 * sum;
   }
   return share;
 }
+
+#define HEMOMAG_INSTANTIATE(Real)                                                                  \
+  template Vec3 bounce_before_shift(const Plate&, const Populations<Real>&,                        \
+                                    const lattice::NodeLayout&, double);                           \
+  template Vec3 bounce_after_shift(const Plate&, const Populations<Real>&,                         \
+                                   const lattice::NodeLayout&, double);                            \
+  template void fill_mirror_velocity(const Plate&, const NodeVector<Real>&,                        \
+                                     const lattice::NodeLayout&, const lattice::NodeBox&);         \
+  template Vec3 fold_mirror_force(const Plate&, const NodeVector<Real>&,                           \
+                                  const lattice::NodeLayout&, const lattice::NodeBox&);
+HEMOMAG_INSTANTIATE(double)
+HEMOMAG_INSTANTIATE(float)
+#undef HEMOMAG_INSTANTIATE
 
 }  // namespace hemomag::fluid

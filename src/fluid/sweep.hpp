@@ -13,27 +13,43 @@
 //
 // A shift pass reads and writes the same 19 places, so rows may be swept in any order. Before it
 // the ghost nodes must hold the neighbours' values, after it what was written to ghosts must go
-// home (solver/population_halo.hpp, fluid/plates.hpp).
+// home (solver/lattice_fluid.hpp), and walls turn populations back between two places
+// (fluid/plates.hpp, fluid/wall_links.hpp).
 
 namespace hemomag::fluid {
 
 enum class Pass { local, shift };
 
+/// Fields of a node that the exponential scheme remembers: density less one, velocity, force.
+inline constexpr int moments = 7;
+
 /// Everything a sweep touches. Pointers are at node (0, 0, 0); strides in elements.
-struct SweepFields {
-  double* f[19];  ///< populations f_i - w_i
+template <class Real> struct SweepFields {
+  Real* f[19];  ///< populations f_i - w_i
   std::ptrdiff_t f_row, f_plane;
-  const double* force[3];         ///< force density on the nodes
-  double* u[3];                   ///< velocity, written
-  std::ptrdiff_t n_row, n_plane;  ///< of force and u
+  const Real* force[3];           ///< force density on the nodes
+  Real* u[3];                     ///< velocity, written
+  const Real* distance;           ///< from the wall, not above 0 in solid nodes; or null: no solid
+  std::ptrdiff_t n_row, n_plane;  ///< of force, u and distance
   int padded_x;                   ///< row length in whole vectors of the widest level
   int y_lo, y_hi, z_lo, z_hi;
   /// Where the block closes on itself along x its ghosts are kept while a row is in the cache: then
   /// the number of nodes along x and the ghosts of force and velocity. Otherwise 0.
   int wrap_x, n_halo;
+  /// Exponential scheme only, laid out as f: the moments of the last step, ghosts included, and
+  /// those of the step before it, which are replaced by the present ones.
+  const Real* last[moments];
+  Real* present[moments];
 };
 
-/// Sweep the rows of `fields` with the TRT collision (fluid/trt.hpp), vectorised for `level`.
-void sweep_trt(Pass pass, const SweepFields& fields, const Relaxation& relaxation, SimdLevel level);
+/// Sweep the rows of `fields`, vectorised for `level`, with the collision of `relaxation`
+/// (fluid/trt.hpp, fluid/exponential.hpp). Solid nodes stay at rest.
+void sweep(Pass pass, const SweepFields<double>& fields, const Relaxation& relaxation,
+           SimdLevel level);
+void sweep(Pass pass, const SweepFields<float>& fields, const Relaxation& relaxation,
+           SimdLevel level);
+
+/// After a shift pass over part of a block: bring what rows got from others along x home again.
+template <class Real> void wrap_row_home(const SweepFields<Real>& fields, int y, int z);
 
 }  // namespace hemomag::fluid

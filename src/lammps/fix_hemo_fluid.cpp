@@ -154,7 +154,7 @@ void FixHemoFluid::create_solver() {
   }
   parameters_->reach_beyond_block = 0.5 * neighbor->skin;
   hemomag::lammps::or_fail(lmp, FLERR,
-                           [&] { solver_ = std::make_unique<FluidSolver>(at, *parameters_); });
+                           [&] { solver_ = hemomag::solver::make_fluid(at, *parameters_); });
 
   const int axis = parameters_->plate_axis;
   const Vec3 low = parameters_->plate_velocity[0], high = parameters_->plate_velocity[1];
@@ -239,10 +239,10 @@ double FixHemoFluid::compute_vector(int k) {
     mine = solver_->node_force();
     break;
   case 2:
-    mine = solver_->plate_share();
+    mine = solver_->wall_share();
     break;
   default:
-    mine = solver_->plate_momentum()[static_cast<std::size_t>(k / 3 - 3)];
+    mine = solver_->wall_momentum()[static_cast<std::size_t>(k / 3 - 3)];
   }
   double sum = 0;
   MPI_Allreduce(&mine[d], &sum, 1, MPI_DOUBLE, MPI_SUM, world);

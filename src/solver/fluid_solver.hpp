@@ -1,117 +1,115 @@
 #pragma once
 #include <array>
+#include <functional>
+#include <memory>
 #include <span>
-#include <vector>
+#include <utility>
 
-#include "base/aligned.hpp"
-#include "base/simd.hpp"
 #include "base/vec3.hpp"
-#include "fluid/plates.hpp"
+#include "fluid/equilibrium.hpp"
 #include "fluid/relaxation.hpp"
-#include "fluid/sweep.hpp"
+#include "fluid/wall_links.hpp"
 #include "ibm/transfer.hpp"
-#include "lattice/node_layout.hpp"
-#include "solver/halo_exchange.hpp"
+#include "lattice/vessel.hpp"
 #include "solver/neighbourhood.hpp"
 
 namespace hemomag::solver {
 
-/// What the fluid is, in lattice units. Plates close an axis; the others are periodic.
+enum class Precision { double_, single_ };
+
+/// What the fluid is, in lattice units. Plates close an axis; the others are periodic. A vessel
+/// lies in a periodic box.
 struct FluidParameters {
   fluid::Relaxation relaxation{1.0, 3.0 / 16};
+  Precision precision = Precision::double_;
   ibm::DeltaKernel kernel = ibm::DeltaKernel::cosine4;
   int plate_axis = -1;                   ///< 0, 1, 2, or -1: no plates
   std::array<Vec3, 2> plate_velocity{};  ///< low, high
+  std::shared_ptr<const lattice::Vessel> vessel;  ///< excludes plates; null: none
+  fluid::WallRule wall_rule = fluid::WallRule::interpolated;  ///< of the vessel
   double reach_beyond_block = 0;  ///< how far a rank's points may lie outside its block, in nodes
+};
+
+/// Distance of a point from a vessel's wall and its gradient.
+struct WallDistance {
+  double distance;
+  Vec3 gradient;
 };
 
 /// The fluid on this rank's block: populations, force and velocity on the nodes, and the order in
 /// which they are communicated. One time step is
 ///     clear_forces(); spread(...) any number of times; step(); interpolate(...)
-/// after step() the velocity is that at the time of the forces, u = (sum e_i f_i + F/2)/rho, on
-/// block and halo.
+/// after step() the velocity is that at the time of the forces on block and halo:
+/// u = (sum e_i f_i + F/2)/rho, in the exponential scheme u = sum e_i f_i/rho.
 class FluidSolver {
 public:
-  /// @throws Error when a block is thinner than the coupling halo (too many ranks along an axis)
-  FluidSolver(const Neighbourhood& at, const FluidParameters& parameters);
-  FluidSolver(const FluidSolver&) = delete;  // its halo exchange looks at its own neighbourhood
-  FluidSolver& operator=(const FluidSolver&) = delete;
+  using Flow = std::pair<Vec3, fluid::VelocityGradient>;
 
-  /// Set density 1 and a velocity field with its gradient; `at` gives them for global node
-  /// positions.
-  template <class Field> void initialise(Field velocity_and_gradient);
+  virtual ~FluidSolver() = default;
 
-  void clear_forces();
+  /// Set density 1 and a velocity field with its gradient, given for global node positions.
+  virtual void initialise(const std::function<Flow(const Vec3&)>& field) = 0;
+
+  virtual void clear_forces() = 0;
   /// Eqs. 29, 36. Collective: a rank without points calls it with none. @return index of the first
   /// point that left the halo, or -1
-  std::ptrdiff_t spread(std::span<const Vec3> x, const ibm::Selection& selection,
-                        std::span<const Vec3> f);
+  virtual std::ptrdiff_t spread(std::span<const Vec3> x, const ibm::Selection& selection,
+                                std::span<const Vec3> f) = 0;
   /// Sum the forces of all ranks, collide, stream, bounce; leaves the new velocity on block and
   /// halo.
-  void step();
+  virtual void step() = 0;
   /// Eqs. 32, 34. @return index of the first point that left the halo, or -1
-  std::ptrdiff_t interpolate(std::span<const Vec3> x, const ibm::Selection& selection,
-                             std::span<Vec3> u) const;
+  virtual std::ptrdiff_t interpolate(std::span<const Vec3> x, const ibm::Selection& selection,
+                                     std::span<Vec3> u) const = 0;
 
   const lattice::Block& block() const { return at_.block; }
   const FluidParameters& parameters() const { return parameters_; }
   double viscosity() const { return parameters_.relaxation.viscosity(); }
-
-  /// Memory of the populations, forces and velocities of this rank.
-  std::size_t bytes() const {
-    return sizeof(double) * (f_storage_.size() + force_storage_.size() + u_storage_.size());
+  void set_body_force(const Vec3& force) {
+    for (std::size_t d = 0; d < 3; ++d) parameters_.relaxation.force[d] = force[d];
   }
 
-  /// Density and velocity of the owned nodes, x fastest.
-  void copy_owned(std::span<double> rho, std::span<Vec3> u);
-  /// Largest |u| on the owned nodes of this rank.
-  double max_speed() const;
-  /// Mass of the owned nodes of this rank, less that of the fluid at rest at density one.
-  double excess_mass();
-  double mass() { return static_cast<double>(block().owned()) + excess_mass(); }
-  /// Sum of e_i f_i over the owned nodes of this rank, after the last step's forces have acted in
-  /// full.
-  Vec3 momentum();
-  /// Force spread on nodes of this rank in the last step (body force left out).
-  Vec3 node_force() const;
-  /// Part of the spread force that went to the plates, in the last step, on this rank.
-  Vec3 plate_share() const { return plate_share_; }
-  /// Momentum given to the low and high plate by bounce-back in the last step, on this rank.
-  const std::array<Vec3, 2>& plate_momentum() const { return plate_momentum_; }
+  bool has_vessel() const { return parameters_.vessel != nullptr; }
+  /// Distance from the vessel's wall at a point of block or halo, linear between nodes.
+  virtual WallDistance wall_distance(const Vec3& x) const = 0;
+  /// This rank's fluid nodes: all, or those inside the vessel.
+  virtual double fluid_nodes() const = 0;
 
-private:
-  void set_node(int x, int y, int z, const std::array<double, 19>& g);
-  void finish_initialise();
-  void reduce_forces();
-  void send_populations_forward();
-  void send_populations_home();
-  void exchange_velocity(int first_axis);
-  void wrap_edges_home();
-  template <class Visit> void for_each_population(Visit visit);
-  fluid::SweepFields sweep_fields();
-  lattice::NodeBox with_halo(int axes_done, int halo) const;
-  struct Faces {
-    lattice::NodeBox whole, ghost_low, first, last, ghost_high;
-  };
-  Faces faces(int axis, int width) const;
-  std::array<double*, 5> crossing(int axis, int sense) const;
+  /// Memory of the populations (with all a scheme remembers), forces and velocities of this rank.
+  virtual std::size_t bytes() const = 0;
+
+  /// Density and velocity of the owned nodes, x fastest; solid nodes have density 1 and are at
+  /// rest.
+  virtual void copy_owned(std::span<double> rho, std::span<Vec3> u) = 0;
+  /// Largest |u| on the owned fluid nodes of this rank.
+  virtual double max_speed() const = 0;
+  /// Sum of the velocity over the owned fluid nodes of this rank.
+  virtual Vec3 total_velocity() const = 0;
+  /// Mass of the owned nodes of this rank, less that of the fluid at rest at density one.
+  virtual double excess_mass() = 0;
+  /// Sum of e_i f_i over the owned nodes of this rank, after the last step's forces have acted in
+  /// full (exponential scheme: before they have).
+  virtual Vec3 momentum() = 0;
+  /// Force spread on nodes of this rank in the last step (body force left out).
+  virtual Vec3 node_force() const = 0;
+  /// Part of the spread force that went to walls, in the last step, on this rank.
+  Vec3 wall_share() const { return wall_share_; }
+  /// Momentum given to the low and high plate (a vessel: all to the first) in the last step, on
+  /// this rank. Exponential scheme: of a steady flow.
+  const std::array<Vec3, 2>& wall_momentum() const { return wall_momentum_; }
+
+protected:
+  FluidSolver(const Neighbourhood& at, const FluidParameters& parameters)
+      : at_(at), parameters_(parameters) {}
 
   Neighbourhood at_;
   FluidParameters parameters_;
-  SimdLevel simd_ = simd_level();
-  lattice::NodeLayout f_layout_, n_layout_;
-  AlignedArray<double> f_storage_, force_storage_, u_storage_;
-  fluid::Populations f_{};
-  fluid::NodeVector force_{}, u_{};
-  HaloExchange halo_;
-  std::vector<fluid::Plate> plates_;
-  bool wraps_x_ = false;  // this rank is its own neighbour along x: the sweep keeps those ghosts
-  fluid::Pass next_ = fluid::Pass::local;
-  bool forces_clear_ = true;
-  Vec3 plate_share_;
-  std::array<Vec3, 2> plate_momentum_{};
+  Vec3 wall_share_;
+  std::array<Vec3, 2> wall_momentum_{};
 };
 
-}  // namespace hemomag::solver
+/// @throws Error when a block is thinner than the coupling halo (too many ranks along an axis), or
+/// parameters do not go together
+std::unique_ptr<FluidSolver> make_fluid(const Neighbourhood& at, const FluidParameters& parameters);
 
-#include "solver/fluid_solver_initialise.hpp"
+}  // namespace hemomag::solver

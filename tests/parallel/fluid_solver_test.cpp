@@ -79,7 +79,8 @@ void compare(std::array<int, 3> n, bool plates, double tau) {
     reference.upper = {0, 0.04, 0};
   }
   const auto at = hemomag::solver::bricks(MPI_COMM_WORLD, n, parameters.plate_axis);
-  FluidSolver solver(at, parameters);
+  const auto owner = hemomag::solver::make_fluid(at, parameters);
+  FluidSolver& solver = *owner;
   solver.initialise([&](const Vec3& x) { return wavy(x, n); });
   for (int z = 0; z < n[2]; ++z)
     for (int y = 0; y < n[1]; ++y)
@@ -142,8 +143,9 @@ TEST(FluidSolver, ConservesMassAndBooksMomentum) {
   for (const bool plates : {false, true}) {
     FluidParameters parameters;
     parameters.plate_axis = plates ? 2 : -1;
-    FluidSolver solver(hemomag::solver::bricks(MPI_COMM_WORLD, n, parameters.plate_axis),
-                       parameters);
+    const auto owner = hemomag::solver::make_fluid(
+        hemomag::solver::bricks(MPI_COMM_WORLD, n, parameters.plate_axis), parameters);
+    FluidSolver& solver = *owner;
     solver.initialise([&](const Vec3& x) { return wavy(x, n); });
     std::vector<int> mine(points.x.size());
     Vec3 total;
@@ -166,7 +168,7 @@ TEST(FluidSolver, ConservesMassAndBooksMomentum) {
       const Vec3 change = solver.momentum() - before;
       for (std::size_t d = 0; d < 3; ++d) {
         const double spread =
-            hemomag::test::sum_over_ranks(solver.node_force()[d] + solver.plate_share()[d]);
+            hemomag::test::sum_over_ranks(solver.node_force()[d] + solver.wall_share()[d]);
         EXPECT_NEAR(spread, total[d], 1e-12 * 60e-3)
             << "force on nodes + plates' share = force spread";
         if (!plates) {

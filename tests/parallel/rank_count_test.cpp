@@ -62,7 +62,8 @@ std::vector<Vec3> flow_on(MPI_Comm comm, int plate_axis) {
   p.relaxation.tau = 0.8;
   p.relaxation.force[0] = 1e-4;
   if (plate_axis == 1) p.plate_velocity = {Vec3{0.01, 0, 0}, Vec3{0, 0, 0.02}};
-  solver::FluidSolver fluid(solver::bricks(comm, n, plate_axis), p);
+  const auto owner = solver::make_fluid(solver::bricks(comm, n, plate_axis), p);
+  solver::FluidSolver& fluid = *owner;
   fluid.initialise([](const Vec3& x) {
     std::pair<Vec3, fluid::VelocityGradient> flow;
     flow.first = {0.02 * std::sin(x.y), 0.03 * std::cos(x.z), 0.01 * std::sin(x.x)};
