@@ -195,7 +195,12 @@ std::vector<Finding> shear_wave() {
                       {"BGK", Relaxation::bgk(0.55), {1.01279, 1.00318, 1.00080, 1.00020}},
                       {"BGK", Relaxation::bgk(1.00), {0.99996, 1.00000, 1.00000, 1.00000}},
                       {"BGK", Relaxation::bgk(1.50), {0.95732, 0.99009, 0.99757, 0.99940}},
-                      {"BGK", Relaxation::bgk(2.00), {0.87748, 0.97281, 0.99348, 0.99839}}};
+                      {"BGK", Relaxation::bgk(2.00), {0.87748, 0.97281, 0.99348, 0.99839}},
+                      {"exponential", Relaxation::exponential(0.1), {0.8235, 0.9505, 0.9873, 0.9968}},
+                      {"exponential", Relaxation::exponential(0.3), {0.9532, 0.9883, 0.9971, 0.9993}},
+                      {"exponential", Relaxation::exponential(0.5), {0.9663, 0.9917, 0.9979, 0.9995}},
+                      {"exponential", Relaxation::exponential(1.0), {0.9350, 0.9846, 0.9962, 0.9991}},
+                      {"exponential", Relaxation::exponential(2.0), {0.7475, 0.9428, 0.9866, 0.9967}}};
   std::vector<Finding> found;
   for (const Row& row : rows)
     for (int k = 0; k < 4; ++k) {

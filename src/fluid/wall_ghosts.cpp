@@ -5,12 +5,13 @@ namespace hemomag::fluid {
 template <class Real>
 WallGhosts<Real>::WallGhosts(const lattice::NodeLayout& layout, const Real* distance) {
   constexpr int reach = 2;
+  constexpr double deepest = -4;  // no kernel of a point in the fluid reaches farther
   for (int z = 0; z < layout.size[2]; ++z)
     for (int y = 0; y < layout.size[1]; ++y)
       for (int x = 0; x < layout.size[0]; ++x) {
         const std::ptrdiff_t node = layout.index(x, y, z);
         const double d_s = static_cast<double>(distance[node]);
-        if (d_s > 0) continue;
+        if (d_s > 0 || d_s < deepest) continue;
         const std::size_t begin = terms_.size();
         double norm = 0, sum = 0;
         for (int k = -reach; k <= reach; ++k)
@@ -23,7 +24,6 @@ WallGhosts<Real>::WallGhosts(const lattice::NodeLayout& layout, const Real* dist
               norm += weight * d;
               terms_.push_back({at, static_cast<Real>(weight)});
             }
-        if (terms_.size() == begin) continue;
         for (std::size_t t = begin; t < terms_.size(); ++t) {
           terms_[t].weight = static_cast<Real>(d_s * static_cast<double>(terms_[t].weight) / norm);
           sum += static_cast<double>(terms_[t].weight);

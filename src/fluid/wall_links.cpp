@@ -32,7 +32,8 @@ WallLinks<Real>::WallLinks(const lattice::NodeLayout& layout, WallRule rule,
       }
 }
 
-template <class Real> Vec3 WallLinks<Real>::bounce(const Populations<Real>& f, bool before) const {
+template <class Real>
+Vec3 WallLinks<Real>::bounce(const Populations<Real>& f, bool before, double streamed) const {
   Vec3 given;
   for (std::size_t i = 1; i < Q; ++i) {
     const auto j = static_cast<std::size_t>(opposite[i]);
@@ -52,7 +53,7 @@ template <class Real> Vec3 WallLinks<Real>::bounce(const Populations<Real>& f, b
         returning[link.x] = in;
         sum += out + in;
       }
-      sum += 2 * w[i] * static_cast<double>(links.size());
+      sum += 2 * streamed * w[i] * static_cast<double>(links.size());
     };
     turn(near_[i], behind);
     turn(far_[i], back);

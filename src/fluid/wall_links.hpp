@@ -40,9 +40,15 @@ public:
             const std::function<bool(int, int, int)>& wet,
             const std::function<double(int, int, int, int)>& fraction);
 
-  /// The wall's work before or after a shift pass. @return momentum given to the wall
-  Vec3 bounce_before_shift(const Populations<Real>& f) const { return bounce(f, true); }
-  Vec3 bounce_after_shift(const Populations<Real>& f) const { return bounce(f, false); }
+  /// The wall's work before or after a shift pass.
+  /// @param streamed  see fluid/plates.hpp
+  /// @return momentum given to the wall
+  Vec3 bounce_before_shift(const Populations<Real>& f, double streamed) const {
+    return bounce(f, true, streamed);
+  }
+  Vec3 bounce_after_shift(const Populations<Real>& f, double streamed) const {
+    return bounce(f, false, streamed);
+  }
 
   /// Visit every link: visit(direction into the wall, offset of its fluid node).
   template <class Visit> void for_each(Visit visit) const {
@@ -58,7 +64,7 @@ private:
     std::ptrdiff_t x;  ///< offset of the fluid node
     Real direct, other;  ///< weights of f_i*(x) and of the second population
   };
-  Vec3 bounce(const Populations<Real>& f, bool before) const;
+  Vec3 bounce(const Populations<Real>& f, bool before, double streamed) const;
 
   lattice::NodeLayout layout_;
   std::array<std::vector<Link>, 19> near_, far_;  ///< q < 1/2 and q >= 1/2, by direction

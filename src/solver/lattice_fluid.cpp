@@ -305,7 +305,7 @@ std::array<Vec3, 2> LatticeFluid<Real>::bounce(PlateRule plate_rule, LinkRule li
   std::array<Vec3, 2> given{};
   for (const auto& plate : plates_)
     given[plate.side == fluid::Side::high] += plate_rule(plate, f_, f_layout_, streamed);
-  if (has_vessel()) given[0] += (links_.*link_rule)(f_);
+  if (has_vessel()) given[0] += (links_.*link_rule)(f_, streamed);
   return given;
 }
 

@@ -61,7 +61,7 @@ private:
   void send_populations_home();
   using PlateRule = Vec3 (*)(const fluid::Plate&, const fluid::Populations<Real>&, const Layout&,
                              double);
-  using LinkRule = Vec3 (fluid::WallLinks<Real>::*)(const fluid::Populations<Real>&) const;
+  using LinkRule = Vec3 (fluid::WallLinks<Real>::*)(const fluid::Populations<Real>&, double) const;
   std::array<Vec3, 2> bounce(PlateRule plate_rule, LinkRule link_rule);
   std::array<Vec3, 2> bounce_before_shift();
   std::array<Vec3, 2> bounce_after_shift();
