@@ -1,4 +1,4 @@
-// Measures every number of ibm::hydrodynamic_radius again, and what lies between: a few minutes.
+// Measures every number of ibm::hydrodynamic_radius again, and what lies between: six minutes.
 //   build/tests/point_radius_table
 #include <cmath>
 #include <cstdio>
