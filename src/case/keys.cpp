@@ -73,7 +73,7 @@ const std::vector<Key>& table() {
       amount("numerics", "dt", time, 0, inf, true, "", "time step; excludes cell_reynolds"),
       choice("numerics", "scheme", {"trt", "bgk"}, {"exponential"}, "trt", "collision"),
       choice("numerics", "precision", {"double"}, {"single"}, "double", "of the populations"),
-      choice("numerics", "kernel", {"cosine4", "peskin4"}, {"roma3", "linear2"}, "cosine4",
+      choice("numerics", "kernel", {"cosine4", "peskin4", "roma3", "linear2"}, {}, "cosine4",
              "smoothed delta function of the coupling"),
       choice("cell", "kind", {"rbc"}, {"platelet", "white"}, "rbc", "red cell"),
       integer("cell", "vertices", 162, 100000, "3286", "of the mesh"),

@@ -86,7 +86,7 @@ TEST(Fluid, RefusesWhatItCannotDo) {
   expect_words(with({"fix fluid all hemo/fluid tau 1", "run 1"}),
                {"axis z has no plates and must be periodic"});
   expect_words(with({"fix fluid all hemo/fluid tau 1 kernel box3"}),
-               {"box3", "accepted: cosine4, peskin4"});
+               {"box3", "accepted: cosine4, peskin4, roma3, linear2"});
   expect_words(with({"fix fluid all hemo/fluid tau 1 plates z lower 0 0 0 upper 0 0 0",
                      "fix push all addforce 0 0 1", "run 1"}),
                {"must be the last fix that adds forces"});
