@@ -51,7 +51,7 @@ bool is_stl_text(const std::string& bytes) {
     return false;
   const auto head = std::string_view(bytes).substr(0, stl_head);
   const auto first = words(head);
-  if (first.empty() || !lower_case(first[0]).starts_with("solid")) return false;
+  if (first.empty() || lower_case(first[0]) != "solid") return false;
   for (unsigned char c : head)
     if (std::iscntrl(c) && !std::isspace(c)) return false;
   return true;
