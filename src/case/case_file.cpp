@@ -1,12 +1,14 @@
 #include "case/case_file.hpp"
 
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
 #include "case/keys.hpp"
 #include "case/lattice_units.hpp"
 #include "case/toml_table.hpp"
+#include "case/vessel.hpp"
 
 namespace hemomag::case_ {
 namespace {
@@ -103,23 +105,61 @@ std::vector<Table> entries(const Source& source, const char* name) {
   return tables;
 }
 
-void read_channel(Case& c, const Table& t) {
-  t.require("size");
-  c.channel.size = t.vector("size");
-  c.channel.boundary = t.word("boundary") == "plates" ? Boundary::plates : Boundary::periodic;
-  c.channel.plates = t.word("plates") == "lower-rest" ? Plates::lower_rest : Plates::symmetric;
-  c.channel.shear_rate = t.optional_quantity("shear_rate").value_or(0);
-  if (c.channel.boundary == Boundary::periodic && c.channel.shear_rate > 0)
-    t.fail("shear_rate", "needs moving plates; accepted: boundary = \"plates\", or no shear_rate");
-  c.channel.body_force[1] = t.optional_quantity("body_force").value_or(0);
+Boundary boundary(const std::string& word) {
+  return word == "plates"     ? Boundary::plates
+         : word == "periodic" ? Boundary::periodic
+         : word == "tube"     ? Boundary::tube
+                              : Boundary::voxels;
 }
 
-void read_numerics(Case& c, const Table& t, const Table& channel) {
-  auto& n = c.numerics;
-  t.require("dx");
-  n.dx = t.quantity("dx");
+/// What drives the fluid: moving plates, a body force, or a mean velocity.
+void read_drive(Case& c, const Table& t) {
+  auto& channel = c.channel;
+  channel.shear_rate = t.optional_quantity("shear_rate").value_or(0);
+  if (channel.boundary != Boundary::plates && channel.shear_rate > 0)
+    t.fail("shear_rate", "needs moving plates; accepted: boundary = \"plates\", or no shear_rate");
+  channel.body_force[static_cast<std::size_t>(channel.axis)] =
+      t.optional_quantity("body_force").value_or(0);
+  channel.mean_velocity = t.optional_quantity("mean_velocity");
+  if (!channel.mean_velocity) return;
+  for (const char* other : {"body_force", "shear_rate"})
+    if (t.has(other))
+      t.fail("mean_velocity", std::string("excludes ") + other + "; accepted: one of the two");
+  if (channel.boundary == Boundary::periodic)
+    t.fail("mean_velocity",
+           "needs walls that resist the flow; accepted: boundary = \"plates\", \"tube\" or "
+           "\"voxels\"");
+}
+
+void read_channel(Case& c, const Table& t) {
+  t.require("size");
+  auto& channel = c.channel;
+  channel.size = t.vector("size");
+  channel.boundary = boundary(t.word("boundary"));
+  channel.plates = t.word("plates") == "lower-rest" ? Plates::lower_rest : Plates::symmetric;
+  channel.axis = t.word("axis")[0] - 'x';
+  if (in_vessel(c))
+    t.refuse_if_given("plates", "means nothing in a tube or voxels; accepted: leave it out");
+  else
+    t.refuse_if_given("axis", "is for a tube or voxels, elsewhere the flow is along y; accepted: "
+                              "boundary = \"tube\" or \"voxels\", or leave it out");
+  if (channel.boundary == Boundary::tube)
+    t.require("diameter");
+  else
+    t.refuse_if_given("diameter", "needs boundary = \"tube\"; accepted: that, or leave it out");
+  channel.diameter = t.optional_quantity("diameter").value_or(0);
+  if (channel.boundary == Boundary::voxels)
+    t.require("geometry");
+  else
+    for (const char* key : {"geometry", "geometry_unit"})
+      t.refuse_if_given(key, "needs boundary = \"voxels\"; accepted: that, or leave it out");
+  channel.geometry_unit = t.quantity("geometry_unit");
+  read_drive(c, t);
+}
+
+void check_size(const Case& c, const Table& channel) {
   for (std::size_t d = 0; d < 3; ++d) {
-    const double nodes = c.channel.size[d] / n.dx;
+    const double nodes = c.channel.size[d] / c.numerics.dx;
     if (std::fabs(nodes - std::round(nodes)) > 1e-9 * nodes || nodes < 4 || nodes > 1e6) {
       char text[160];
       std::snprintf(text, sizeof text,
@@ -128,23 +168,62 @@ void read_numerics(Case& c, const Table& t, const Table& channel) {
       channel.fail("size", text);
     }
   }
-  n.tau = t.number("tau");
+}
+
+/// tau and dx leave one freedom: the time step, by one of three keys.
+void read_time_step(Case& c, const Table& t) {
+  auto& n = c.numerics;
   if (t.has("dt") && t.has("cell_reynolds"))
     t.fail("dt", "excludes cell_reynolds; accepted: one of the two");
   n.dt = t.optional_quantity("dt");
-  if (!n.dt && !t.is_word("cell_reynolds", "true")) {
-    if (c.channel.shear_rate > 0)
-      n.cell_reynolds = t.number("cell_reynolds");
-    else if (t.has("cell_reynolds"))
-      t.fail("cell_reynolds", "means nothing without channel.shear_rate; accepted: numerics.dt, or "
-                              "cell_reynolds = \"true\"");
-    else
-      t.missing("dt",
-                "is missing; without channel.shear_rate a time step is required, e.g. \"6.81 us\"");
-  }
+  if (n.dt || t.is_word("cell_reynolds", "true")) return;
+  if (nominal_shear_rate(c) > 0)
+    n.cell_reynolds = t.number("cell_reynolds");
+  else if (t.has("cell_reynolds"))
+    t.fail("cell_reynolds",
+           "means nothing without channel.shear_rate or channel.mean_velocity; accepted: "
+           "numerics.dt, or cell_reynolds = \"true\"");
+  else
+    t.missing("dt", "is missing; without channel.shear_rate or channel.mean_velocity a time step "
+                    "is required, e.g. \"6.81 us\"");
+}
+
+void read_numerics(Case& c, const Table& t) {
+  auto& n = c.numerics;
+  n.tau = t.number("tau");
   n.scheme = t.word("scheme");
-  t.word("precision");
+  if (n.scheme != "exponential" && n.tau <= 0.5)
+    t.fail("tau",
+           "is out of range; accepted: above 0.5 and at most 100, or from 0.05 with scheme = "
+           "\"exponential\"");
+  n.precision = t.word("precision");
   n.kernel = t.word("kernel");
+  read_time_step(c, t);
+}
+
+/// The wall of a tube or of voxels, made here so that a surface that cannot be used is refused with
+/// its place.
+void read_vessel(Case& c, const Table& channel, const std::string& case_path) {
+  if (c.channel.boundary == Boundary::tube)
+    for (std::size_t d = 0; d < 3; ++d) {
+      const double room = c.channel.size[d] - 2 * c.numerics.dx;
+      if (static_cast<int>(d) == c.channel.axis || c.channel.diameter <= room * (1 + 1e-12))
+        continue;
+      char text[160];
+      std::snprintf(text, sizeof text,
+                    "is too wide for the box along %c; accepted: at most %g um, which leaves a "
+                    "node spacing to each side",
+                    "xyz"[d], room * 1e6);
+      channel.fail("diameter", text);
+    }
+  if (c.channel.boundary == Boundary::voxels)
+    c.channel.geometry =
+        (std::filesystem::path(case_path).parent_path() / channel.word("geometry")).string();
+  try {
+    c.vessel = make_vessel(c);
+  } catch (const Error& e) {
+    channel.fail("geometry", e.what());
+  }
 }
 
 Cell read_cell(const Table& t) {
@@ -215,19 +294,30 @@ void read_magnetic(Case& c, const Table& t, bool given) {
   if (m.gradient && t.has("B0")) t.fail("gradient", "excludes B0; accepted: one of the two");
   if (t.has("zero_at") && !m.gradient)
     t.fail("zero_at", "needs an explicit gradient; accepted: gradient = \"... T/m\" with it");
-  if (m.field == FieldKind::gradient && !m.gradient && c.channel.boundary == Boundary::periodic)
+  if (m.field == FieldKind::gradient && !m.gradient && c.channel.boundary != Boundary::plates)
     t.missing("gradient",
               "is missing; without plates a gradient field needs gradient = \"... T/m\"");
 }
 
-void read_rest(Case& c, const Source& source) {
-  const Table analysis = section(source, "analysis");
-  analysis.refuse_later("layer");
-  c.analysis.layer = analysis.quantity("layer");
-  if (c.analysis.layer >= c.channel.size[2])
-    analysis.fail("layer", "is thicker than the channel; accepted: less than its height");
-  c.analysis.walls = analysis.word("walls") == "both" ? LayerWalls::both : LayerWalls::lower;
-  const Table run = section(source, "run");
+void read_analysis(Case& c, const Table& t) {
+  auto& analysis = c.analysis;
+  t.refuse_later("layer");
+  analysis.layer = t.quantity("layer");
+  if (in_vessel(c) && analysis.layer >= width(c) / 2)
+    t.fail("layer", "is thicker than the vessel; accepted: less than half its width");
+  if (analysis.layer >= c.channel.size[2])
+    t.fail("layer", "is thicker than the channel; accepted: less than its height");
+  const std::string walls = t.word("walls");
+  analysis.walls = in_vessel(c)       ? LayerWalls::vessel
+                   : walls == "lower" ? LayerWalls::lower
+                                      : LayerWalls::both;
+  if (in_vessel(c) && walls != "vessel")
+    t.refuse_if_given("walls", "is for plates; accepted in a tube or voxels: \"vessel\"");
+  if (!in_vessel(c) && walls == "vessel")
+    t.fail("walls", "needs a tube or voxels; accepted: \"lower\", \"both\"");
+}
+
+void read_run(Case& c, const Table& run, const Table& analysis) {
   if (run.has("time") && run.has("steps"))
     run.fail("steps", "excludes time; accepted: one of the two");
   if (!run.has("time") && !run.has("steps"))
@@ -240,11 +330,11 @@ void read_rest(Case& c, const Source& source) {
       c.run.time ? *c.run.time : static_cast<double>(*c.run.steps) * lattice_units(c).dt;
   if (!analysis.has("average_from") && duration <= c.analysis.average_from)
     c.analysis.average_from = 0;
-  const Table output = section(source, "output");
-  c.output.fields =
-      output.is_word("fields", "never") ? std::nullopt : output.optional_quantity("fields");
-  c.output.series =
-      output.is_word("series", "never") ? std::nullopt : output.optional_quantity("series");
+}
+
+void read_output(Case& c, const Table& t) {
+  c.output.fields = t.is_word("fields", "never") ? std::nullopt : t.optional_quantity("fields");
+  c.output.series = t.is_word("series", "never") ? std::nullopt : t.optional_quantity("series");
 }
 
 /// Every key's place, for messages that come after reading.
@@ -260,8 +350,11 @@ void note_positions(Case& c, const Source& source, const toml::node& node,
       note_positions(c, source, *list->get(k), entry_path(path.c_str(), k, list->size()));
 }
 
-std::string effective_text(const Source& source, const std::string& text) {
-  if (source.overridden.empty()) return text;
+/// The case as run: overrides applied, and the surface where the run directory keeps its copy.
+std::string effective_text(Source& source, const Case& c, const std::string& text) {
+  const std::string copy = geometry_copy(c);
+  if (!copy.empty()) source.root["channel"].as_table()->insert_or_assign("geometry", copy);
+  if (copy.empty() && source.overridden.empty()) return text;
   std::stringstream out;
   out << source.root << "\n";
   return out.str();
@@ -302,7 +395,12 @@ Case read_case(const std::string& path, const std::vector<std::string>& override
   fluid.require("viscosity");
   c.fluid.viscosity = fluid.quantity("viscosity");
   c.fluid.density = fluid.quantity("density");
-  read_numerics(c, section(source, "numerics"), channel);
+  const Table numerics = section(source, "numerics");
+  numerics.require("dx");
+  c.numerics.dx = numerics.quantity("dx");
+  check_size(c, channel);
+  read_numerics(c, numerics);
+  read_vessel(c, channel, path);
   for (const Table& t : entries(source, "cell")) c.cells.push_back(read_cell(t));
   for (const Table& t : entries(source, "carrier")) {
     c.carriers.push_back(read_carrier(t));
@@ -311,10 +409,13 @@ Case read_case(const std::string& path, const std::vector<std::string>& override
   }
   read_contact(c, section(source, "contact"));
   read_magnetic(c, section(source, "magnetic"), source.root.contains("magnetic"));
-  read_rest(c, source);
-  c.text = effective_text(source, text);
+  const Table analysis = section(source, "analysis");
+  read_analysis(c, analysis);
+  read_run(c, section(source, "run"), analysis);
+  read_output(c, section(source, "output"));
   c.file = path;
   note_positions(c, source, source.root, "");
+  c.text = effective_text(source, c, text);
   return c;
 }
 

@@ -13,7 +13,7 @@ double LatticeUnits::magnetic_field() const { return std::sqrt(vacuum_permeabili
 
 LatticeUnits lattice_units(const Case& c) {
   const auto& n = c.numerics;
-  const double nu = (n.tau - 0.5) / 3;
+  const double nu = (n.scheme == "exponential" ? n.tau : n.tau - 0.5) / 3;
   LatticeUnits units;
   units.dx = n.dx;
   if (n.dt) {
@@ -22,11 +22,47 @@ LatticeUnits lattice_units(const Case& c) {
     return units;
   }
   units.density = n.cell_reynolds ? *n.cell_reynolds * c.fluid.viscosity /
-                                        (c.channel.shear_rate * cell_radius * cell_radius)
+                                        (nominal_shear_rate(c) * cell_radius * cell_radius)
                                   : c.fluid.density;
   units.dt = nu * n.dx * n.dx * units.density / c.fluid.viscosity;
   return units;
 }
+
+double width(const Case& c) {
+  const auto& s = c.channel.size;
+  if (c.channel.boundary == Boundary::tube) return c.channel.diameter;
+  if (c.channel.boundary == Boundary::plates) return s[2];
+  return *std::min_element(s.begin(), s.end());
+}
+
+double nominal_shear_rate(const Case& c) {
+  if (c.channel.mean_velocity) return *c.channel.mean_velocity / width(c);
+  return c.channel.shear_rate;
+}
+
+double starting_force(const Case& c) {
+  if (!c.channel.mean_velocity)
+    return c.channel.body_force[static_cast<std::size_t>(c.channel.axis)];
+  const double mu_u = c.fluid.viscosity * *c.channel.mean_velocity, w = width(c);
+  if (c.channel.boundary == Boundary::plates) return 12 * mu_u / (w * w);
+  return c.channel.boundary == Boundary::tube ? 32 * mu_u / (w * w) : 0;
+}
+
+double fastest_flow(const Case& c) {
+  const auto& channel = c.channel;
+  const double g = std::fabs(starting_force(c)), mu = c.fluid.viscosity;
+  if (channel.boundary == Boundary::plates) {
+    const auto v = plate_velocity(c);
+    return std::max(std::fabs(v[0]), std::fabs(v[1])) + g * std::pow(width(c), 2) / (8 * mu);
+  }
+  if (!in_vessel(c)) return 0;
+  if (channel.mean_velocity) return 2 * *channel.mean_velocity;
+  const double radius =
+      channel.boundary == Boundary::tube ? 0.5 * channel.diameter : c.vessel.widest * c.numerics.dx;
+  return g * radius * radius / (4 * mu);
+}
+
+double surface_scale(const Case& c) { return c.channel.geometry_unit / c.numerics.dx; }
 
 std::array<int, 3> nodes(const Case& c) {
   std::array<int, 3> n{};
