@@ -295,8 +295,7 @@ void read_magnetic(Case& c, const Table& t, bool given) {
   if (t.has("zero_at") && !m.gradient)
     t.fail("zero_at", "needs an explicit gradient; accepted: gradient = \"... T/m\" with it");
   if (m.field == FieldKind::gradient && !m.gradient && c.channel.boundary != Boundary::plates)
-    t.missing("gradient",
-              "is missing; without plates a gradient field needs gradient = \"... T/m\"");
+    t.missing("gradient", "is missing; gradient = \"... T/m\" is required without plates");
 }
 
 void read_analysis(Case& c, const Table& t) {
