@@ -216,9 +216,13 @@ void read_vessel(Case& c, const Table& channel, const std::string& case_path) {
                     "xyz"[d], room * 1e6);
       channel.fail("diameter", text);
     }
-  if (c.channel.boundary == Boundary::voxels)
+  if (c.channel.boundary == Boundary::voxels) {
     c.channel.geometry =
         (std::filesystem::path(case_path).parent_path() / channel.word("geometry")).string();
+    if (!std::ifstream(c.channel.geometry))
+      channel.fail("geometry", c.channel.geometry +
+                                   ": cannot be read; a readable STL, OFF or PLY file is expected");
+  }
   try {
     c.vessel = make_vessel(c);
   } catch (const Error& e) {

@@ -40,12 +40,12 @@ double width(const Case& c);
 double nominal_shear_rate(const Case& c);
 
 /// Body force density along the flow's axis with which a run begins [N/m3]: the case's, or for a
-/// mean velocity that of plasma alone between plates (12 mu u/H^2) or in a tube (8 mu u/R^2). In
-/// voxels it begins at zero.
+/// mean velocity that of plasma alone between plates (12 mu u/H^2) or in a tube (8 mu u/R^2), in
+/// voxels in a tube of the radius of the widest place.
 double starting_force(const Case& c);
 
-/// Estimate of the fastest flow [m/s]: of the plates, and of plasma alone under the force or mean
-/// velocity. In voxels as in a tube of the radius of the widest place.
+/// Estimate of the fastest flow [m/s]: of the plates, and of plasma alone under that force, 3/2 of
+/// the mean between plates and twice the mean in a tube or voxels.
 double fastest_flow(const Case& c);
 
 /// Lattice units per unit of the surface file.
