@@ -88,8 +88,8 @@ TEST(FixHemoWall, FollowsTheTubesDistanceAndEndsAtItsCut) {
   const contact::WallRepulsion wall{0.02, 1.0, 1.122462048309373};
   for (const double phi : {0.1, 0.9, 2.0, 4.4}) {
     const Vec3 out{std::cos(phi), 0, std::sin(phi)};
-    // The distance is interpolated between nodes: off by at most h^2/(8 (R - d)) = 0.02 of a node
-    // on a circle, two directions of which curve.
+    // The distance is interpolated between nodes: off by h^2/(8 r) on a circle of radius r. Twice
+    // that, since the gradient's size is off too.
     const double off = 2 * 1.0 / (8 * 7.0);
     const double d = 0.95;
     const auto at = tube.at(axis_point + (radius - d) * out);
