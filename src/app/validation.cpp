@@ -27,7 +27,11 @@ void print(const Finding& f, bool json) {
 }  // namespace
 
 const std::vector<Validation>& validations() {
-  static const std::vector<Validation> all = fluid_validations();
+  static const std::vector<Validation> all = [] {
+    auto list = fluid_validations();
+    for (auto& v : curved_validations()) list.push_back(std::move(v));
+    return list;
+  }();
   return all;
 }
 

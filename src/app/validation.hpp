@@ -29,8 +29,9 @@ struct Validation {
 /// All validations, in the order they run.
 const std::vector<Validation>& validations();
 
-/// Those of the fluid (validate_fluid.cpp).
+/// Those of the fluid (validate_fluid.cpp) and of curved walls (validate_curved.cpp).
 std::vector<Validation> fluid_validations();
+std::vector<Validation> curved_validations();
 
 /// Run the named ones (all if none) and print them, as a table or as one JSON object a line. Rank 0
 /// works alone.

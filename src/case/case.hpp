@@ -6,26 +6,33 @@
 #include <string>
 #include <vector>
 
+#include "case/vessel.hpp"
+
 // A case as the user means it, in SI units, checked key by key. What the keys mean:
 // docs/case_file.md.
 
 namespace hemomag::case_ {
 
-enum class Boundary { periodic, plates };
+enum class Boundary { periodic, plates, tube, voxels };
 enum class Plates { lower_rest, symmetric };
 enum class Placement { random, grid };
 enum class Hinges { rest, flat };
 enum class CarrierKind { particle, worm };
 enum class Repulsion { soft, paper };
 enum class FieldKind { none, uniform, gradient };
-enum class LayerWalls { lower, both };
+enum class LayerWalls { lower, both, vessel };
 
 struct Channel {
   std::array<double, 3> size{};  ///< [m]; y is the flow direction, z between the plates
   Boundary boundary = Boundary::plates;
   Plates plates = Plates::lower_rest;
-  double shear_rate = 0;               ///< [1/s], along +y
-  std::array<double, 3> body_force{};  ///< [N/m3]; a single value in the file acts along +y
+  double shear_rate = 0;                ///< [1/s], along +y
+  std::array<double, 3> body_force{};   ///< [N/m3]; a single value in the file acts along `axis`
+  std::optional<double> mean_velocity;  ///< [m/s] along `axis`, held by an adjusted body force
+  int axis = 1;                         ///< the flow's: y, but a tube or voxels may choose
+  double diameter = 0;                  ///< [m], tube
+  std::string geometry;                 ///< path of the surface file, voxels
+  double geometry_unit = 0;             ///< [m], what one unit of that file is
 };
 
 struct Fluid {
@@ -38,8 +45,9 @@ struct Numerics {
   double tau = 1.0;
   std::optional<double> cell_reynolds;  ///< inertia scaling; empty: the real density
   std::optional<double> dt;             ///< [s]; excludes cell_reynolds
-  std::string scheme = "trt";           ///< trt, bgk
-  std::string kernel = "cosine4";
+  std::string scheme = "trt";           ///< trt, bgk, exponential
+  std::string precision = "double";     ///< of the populations: double, single
+  std::string kernel = "cosine4";       ///< cosine4, peskin4, roma3, linear2
 };
 
 struct Cell {
@@ -110,6 +118,7 @@ struct Case {
   std::string title;
   std::uint64_t seed = 1;
   Channel channel;
+  VesselOnGrid vessel;  ///< make_vessel of the rest
   Fluid fluid;
   Numerics numerics;
   std::vector<Cell> cells;
@@ -130,5 +139,10 @@ std::string position(const Case& c, std::string key);
 
 /// The path of entry k of `count` [[name]] entries.
 std::string entry_path(const char* name, std::size_t k, std::size_t count);
+
+/// Whether the fluid fills a tube or the inside of a surface.
+inline bool in_vessel(const Case& c) {
+  return c.channel.boundary == Boundary::tube || c.channel.boundary == Boundary::voxels;
+}
 
 }  // namespace hemomag::case_

@@ -1,202 +1,17 @@
 #include "case/case_file.hpp"
 
 #include <cmath>
+#include <filesystem>
 #include <fstream>
-#include <map>
 #include <sstream>
-#include <utility>
-
-#include <toml++/toml.h>
 
 #include "case/keys.hpp"
 #include "case/lattice_units.hpp"
+#include "case/toml_table.hpp"
+#include "case/vessel.hpp"
 
 namespace hemomag::case_ {
 namespace {
-
-/// A parsed file, its name, and which keys came from --set.
-struct Source {
-  std::string path;
-  toml::table root;
-  std::map<const toml::node*, std::string> overridden;
-
-  std::string place(const toml::node& node) const {
-    const auto at = node.source().begin;
-    return path + ":" + std::to_string(at.line == 0 ? 1 : at.line) + ":" +
-           std::to_string(at.column == 0 ? 1 : at.column);
-  }
-  [[noreturn]] void fail(const toml::node& node, const std::string& key,
-                         const std::string& problem) const {
-    const auto set = overridden.find(&node);
-    if (set != overridden.end()) throw CaseError("--set " + set->second + ": " + problem);
-    throw CaseError(place(node) + ": " + key + ": " + problem);
-  }
-};
-
-const char* type_name(const toml::node& node) {
-  switch (node.type()) {
-  case toml::node_type::string:
-    return "a string";
-  case toml::node_type::integer:
-    return "a whole number";
-  case toml::node_type::floating_point:
-    return "a number";
-  case toml::node_type::boolean:
-    return "true or false";
-  case toml::node_type::array:
-    return "a list";
-  case toml::node_type::table:
-    return "a table";
-  default:
-    return "a date or time";
-  }
-}
-
-/// One table of the file, read key by key; what the schema does not know is refused when it is
-/// opened.
-class Table {
-public:
-  Table(const Source& source, const toml::table* table, std::string schema, std::string path)
-      : source_(source), table_(table), schema_(std::move(schema)), path_(std::move(path)) {
-    if (table_) refuse_unknown();
-  }
-
-  bool has(const char* name) const { return table_ && table_->contains(name); }
-  const toml::node& node(const char* name) const { return *table_->get(name); }
-
-  /// The value as it is written in the file or, absent, as its default is written in the table of
-  /// keys.
-  std::string word(const char* name) const {
-    const Key& key = *find_key(schema_, name);
-    if (!has(name)) return key.fallback;
-    const auto text = node(name).value<std::string>();
-    const bool table = node(name).is_table();  // placement = { file = ... }
-    if (!text && !table) wrong_type(name, key);
-    const std::string word = table ? "file" : *text;
-    if (key.kind == Kind::text) return word;
-    for (const char* choice : key.choices)
-      if (word == choice) return word;
-    for (const char* choice : key.later)
-      if (word == choice)
-        fail(name, "\"" + word + "\" is not available in this version; accepted: " + accepted(key));
-    fail(name, "\"" + word + "\" is unknown; accepted: " + accepted(key));
-  }
-
-  bool flag(const char* name) const {
-    const Key& key = *find_key(schema_, name);
-    if (!has(name)) return std::string(key.fallback) == "true";
-    const auto value = node(name).value_exact<bool>();
-    if (!value) wrong_type(name, key);
-    return *value;
-  }
-
-  double number(const char* name) const {
-    const Key& key = *find_key(schema_, name);
-    if (!has(name)) return std::stod(key.fallback);
-    const auto& n = node(name);
-    if (!n.is_number() || (key.kind == Kind::integer && !n.is_integer())) wrong_type(name, key);
-    return in_range(name, key, *n.value<double>());
-  }
-
-  double quantity(const char* name) const {
-    const Key& key = *find_key(schema_, name);
-    if (!has(name)) return case_::quantity(key.fallback, *key.dimension);
-    return in_range(name, key, read(name, key, node(name)));
-  }
-
-  std::optional<double> optional_quantity(const char* name) const {
-    if (!has(name) && *find_key(schema_, name)->fallback == '\0') return std::nullopt;
-    return quantity(name);
-  }
-
-  std::array<double, 3> vector(const char* name) const {
-    const Key& key = *find_key(schema_, name);
-    std::array<double, 3> v{};
-    if (!has(name)) return v;
-    const auto* list = node(name).as_array();
-    if (!list || list->size() != 3) wrong_type(name, key);
-    for (std::size_t d = 0; d < 3; ++d) v[d] = in_range(name, key, read(name, key, *list->get(d)));
-    return v;
-  }
-
-  /// True when the key holds this one of its words, e.g. "never".
-  bool is_word(const char* name, const char* word) const {
-    return has(name) && node(name).value<std::string>() == std::optional<std::string>(word);
-  }
-
-  /// A later version's word in a key that is otherwise a quantity.
-  void refuse_later(const char* name) const {
-    const Key& key = *find_key(schema_, name);
-    for (const char* word : key.later)
-      if (is_word(name, word))
-        fail(name, std::string("\"") + word +
-                       "\" is not available in this version; accepted: " + accepted(key));
-  }
-
-  [[noreturn]] void fail(const char* name, const std::string& problem) const {
-    source_.fail(node(name), full(name), problem);
-  }
-
-  /// Report a key that is missing, at the header of its table (1:1 when there is none).
-  [[noreturn]] void missing(const char* name, const std::string& problem) const {
-    if (table_) source_.fail(*table_, full(name), problem);
-    throw CaseError(source_.path + ":1:1: " + full(name) + ": " + problem);
-  }
-
-  void require(const char* name) const {
-    if (!has(name))
-      missing(name, "is missing; " + accepted(*find_key(schema_, name)) + " is required");
-  }
-
-  std::string full(const char* name) const { return path_.empty() ? name : path_ + "." + name; }
-
-private:
-  void refuse_unknown() const {
-    for (const auto& [name, value] : *table_) {
-      const std::string text(name.str());
-      if (find_key(schema_, text)) continue;
-      if (schema_.empty() && !nearest_name("", text).empty() && nearest_name("", text) == text)
-        continue;  // a table
-      const std::string near = nearest_name(schema_, text);
-      std::string known;
-      for (const Key& key : keys())
-        if (schema_ == key.table) known += (known.empty() ? "" : ", ") + std::string(key.name);
-      source_.fail(value, full(text.c_str()),
-                   "is not a key" + (near.empty()
-                                         ? "; accepted: " + known
-                                         : "; did you mean " + near + "? accepted: " + known));
-    }
-  }
-
-  [[noreturn]] void wrong_type(const char* name, const Key& key) const {
-    fail(name, std::string(type_name(node(name))) +
-                   " is not what is meant here; accepted: " + accepted(key));
-  }
-
-  double read(const char* name, const Key& key, const toml::node& n) const {
-    const auto text = n.value<std::string>();
-    if (!text)
-      source_.fail(n, full(name),
-                   std::string(type_name(n)) + " without a unit; accepted: " + accepted(key) +
-                       " as a string");
-    try {
-      return case_::quantity(*text, *key.dimension);
-    } catch (const Error& e) {
-      source_.fail(source_.overridden.contains(&node(name)) ? node(name) : n, full(name), e.what());
-    }
-  }
-
-  double in_range(const char* name, const Key& key, double value) const {
-    const bool low = key.above_min ? value > key.min : value >= key.min;
-    if (!std::isfinite(value) || !low || value > key.max)
-      fail(name, "is out of range; accepted: " + accepted(key));
-    return value;
-  }
-
-  const Source& source_;
-  const toml::table* table_;
-  std::string schema_, path_;
-};
 
 std::string read_text(const std::string& path) {
   std::ifstream file(path);
@@ -290,23 +105,61 @@ std::vector<Table> entries(const Source& source, const char* name) {
   return tables;
 }
 
-void read_channel(Case& c, const Table& t) {
-  t.require("size");
-  c.channel.size = t.vector("size");
-  c.channel.boundary = t.word("boundary") == "plates" ? Boundary::plates : Boundary::periodic;
-  c.channel.plates = t.word("plates") == "lower-rest" ? Plates::lower_rest : Plates::symmetric;
-  c.channel.shear_rate = t.optional_quantity("shear_rate").value_or(0);
-  if (c.channel.boundary == Boundary::periodic && c.channel.shear_rate > 0)
-    t.fail("shear_rate", "needs moving plates; accepted: boundary = \"plates\", or no shear_rate");
-  c.channel.body_force[1] = t.optional_quantity("body_force").value_or(0);
+Boundary boundary(const std::string& word) {
+  return word == "plates"     ? Boundary::plates
+         : word == "periodic" ? Boundary::periodic
+         : word == "tube"     ? Boundary::tube
+                              : Boundary::voxels;
 }
 
-void read_numerics(Case& c, const Table& t, const Table& channel) {
-  auto& n = c.numerics;
-  t.require("dx");
-  n.dx = t.quantity("dx");
+/// What drives the fluid: moving plates, a body force, or a mean velocity.
+void read_drive(Case& c, const Table& t) {
+  auto& channel = c.channel;
+  channel.shear_rate = t.optional_quantity("shear_rate").value_or(0);
+  if (channel.boundary != Boundary::plates && channel.shear_rate > 0)
+    t.fail("shear_rate", "needs moving plates; accepted: boundary = \"plates\", or no shear_rate");
+  channel.body_force[static_cast<std::size_t>(channel.axis)] =
+      t.optional_quantity("body_force").value_or(0);
+  channel.mean_velocity = t.optional_quantity("mean_velocity");
+  if (!channel.mean_velocity) return;
+  for (const char* other : {"body_force", "shear_rate"})
+    if (t.has(other))
+      t.fail("mean_velocity", std::string("excludes ") + other + "; accepted: one of the two");
+  if (channel.boundary == Boundary::periodic)
+    t.fail("mean_velocity",
+           "needs walls that resist the flow; accepted: boundary = \"plates\", \"tube\" or "
+           "\"voxels\"");
+}
+
+void read_channel(Case& c, const Table& t) {
+  t.require("size");
+  auto& channel = c.channel;
+  channel.size = t.vector("size");
+  channel.boundary = boundary(t.word("boundary"));
+  channel.plates = t.word("plates") == "lower-rest" ? Plates::lower_rest : Plates::symmetric;
+  channel.axis = t.word("axis")[0] - 'x';
+  if (in_vessel(c))
+    t.refuse_if_given("plates", "means nothing in a tube or voxels; accepted: leave it out");
+  else
+    t.refuse_if_given("axis", "is for a tube or voxels, elsewhere the flow is along y; accepted: "
+                              "boundary = \"tube\" or \"voxels\", or leave it out");
+  if (channel.boundary == Boundary::tube)
+    t.require("diameter");
+  else
+    t.refuse_if_given("diameter", "needs boundary = \"tube\"; accepted: that, or leave it out");
+  channel.diameter = t.optional_quantity("diameter").value_or(0);
+  if (channel.boundary == Boundary::voxels)
+    t.require("geometry");
+  else
+    for (const char* key : {"geometry", "geometry_unit"})
+      t.refuse_if_given(key, "needs boundary = \"voxels\"; accepted: that, or leave it out");
+  channel.geometry_unit = t.quantity("geometry_unit");
+  read_drive(c, t);
+}
+
+void check_size(const Case& c, const Table& channel) {
   for (std::size_t d = 0; d < 3; ++d) {
-    const double nodes = c.channel.size[d] / n.dx;
+    const double nodes = c.channel.size[d] / c.numerics.dx;
     if (std::fabs(nodes - std::round(nodes)) > 1e-9 * nodes || nodes < 4 || nodes > 1e6) {
       char text[160];
       std::snprintf(text, sizeof text,
@@ -315,23 +168,66 @@ void read_numerics(Case& c, const Table& t, const Table& channel) {
       channel.fail("size", text);
     }
   }
-  n.tau = t.number("tau");
+}
+
+/// tau and dx leave one freedom: the time step, by one of three keys.
+void read_time_step(Case& c, const Table& t) {
+  auto& n = c.numerics;
   if (t.has("dt") && t.has("cell_reynolds"))
     t.fail("dt", "excludes cell_reynolds; accepted: one of the two");
   n.dt = t.optional_quantity("dt");
-  if (!n.dt && !t.is_word("cell_reynolds", "true")) {
-    if (c.channel.shear_rate > 0)
-      n.cell_reynolds = t.number("cell_reynolds");
-    else if (t.has("cell_reynolds"))
-      t.fail("cell_reynolds", "means nothing without channel.shear_rate; accepted: numerics.dt, or "
-                              "cell_reynolds = \"true\"");
-    else
-      t.missing("dt",
-                "is missing; without channel.shear_rate a time step is required, e.g. \"6.81 us\"");
-  }
+  if (n.dt || t.is_word("cell_reynolds", "true")) return;
+  if (nominal_shear_rate(c) > 0)
+    n.cell_reynolds = t.number("cell_reynolds");
+  else if (t.has("cell_reynolds"))
+    t.fail("cell_reynolds",
+           "means nothing without channel.shear_rate or channel.mean_velocity; accepted: "
+           "numerics.dt, or cell_reynolds = \"true\"");
+  else
+    t.missing("dt", "is missing; without channel.shear_rate or channel.mean_velocity a time step "
+                    "is required, e.g. \"6.81 us\"");
+}
+
+void read_numerics(Case& c, const Table& t) {
+  auto& n = c.numerics;
+  n.tau = t.number("tau");
   n.scheme = t.word("scheme");
-  t.word("precision");
+  if (n.scheme != "exponential" && n.tau <= 0.5)
+    t.fail("tau",
+           "is out of range; accepted: above 0.5 and at most 100, or from 0.05 with scheme = "
+           "\"exponential\"");
+  n.precision = t.word("precision");
   n.kernel = t.word("kernel");
+  read_time_step(c, t);
+}
+
+/// The wall of a tube or of voxels, made here so that a surface that cannot be used is refused with
+/// its place.
+void read_vessel(Case& c, const Table& channel, const std::string& case_path) {
+  if (c.channel.boundary == Boundary::tube)
+    for (std::size_t d = 0; d < 3; ++d) {
+      const double room = c.channel.size[d] - 2 * c.numerics.dx;
+      if (static_cast<int>(d) == c.channel.axis || c.channel.diameter <= room * (1 + 1e-12))
+        continue;
+      char text[160];
+      std::snprintf(text, sizeof text,
+                    "is too wide for the box along %c; accepted: at most %g um, which leaves a "
+                    "node spacing to each side",
+                    "xyz"[d], room * 1e6);
+      channel.fail("diameter", text);
+    }
+  if (c.channel.boundary == Boundary::voxels) {
+    c.channel.geometry =
+        (std::filesystem::path(case_path).parent_path() / channel.word("geometry")).string();
+    if (!std::ifstream(c.channel.geometry))
+      channel.fail("geometry", c.channel.geometry +
+                                   ": cannot be read; a readable STL, OFF or PLY file is expected");
+  }
+  try {
+    c.vessel = make_vessel(c);
+  } catch (const Error& e) {
+    channel.fail("geometry", e.what());
+  }
 }
 
 Cell read_cell(const Table& t) {
@@ -402,19 +298,29 @@ void read_magnetic(Case& c, const Table& t, bool given) {
   if (m.gradient && t.has("B0")) t.fail("gradient", "excludes B0; accepted: one of the two");
   if (t.has("zero_at") && !m.gradient)
     t.fail("zero_at", "needs an explicit gradient; accepted: gradient = \"... T/m\" with it");
-  if (m.field == FieldKind::gradient && !m.gradient && c.channel.boundary == Boundary::periodic)
-    t.missing("gradient",
-              "is missing; without plates a gradient field needs gradient = \"... T/m\"");
+  if (m.field == FieldKind::gradient && !m.gradient && c.channel.boundary != Boundary::plates)
+    t.missing("gradient", "is missing; gradient = \"... T/m\" is required without plates");
 }
 
-void read_rest(Case& c, const Source& source) {
-  const Table analysis = section(source, "analysis");
-  analysis.refuse_later("layer");
-  c.analysis.layer = analysis.quantity("layer");
-  if (c.analysis.layer >= c.channel.size[2])
-    analysis.fail("layer", "is thicker than the channel; accepted: less than its height");
-  c.analysis.walls = analysis.word("walls") == "both" ? LayerWalls::both : LayerWalls::lower;
-  const Table run = section(source, "run");
+void read_analysis(Case& c, const Table& t) {
+  auto& analysis = c.analysis;
+  t.refuse_later("layer");
+  analysis.layer = t.quantity("layer");
+  if (in_vessel(c) && analysis.layer >= width(c) / 2)
+    t.fail("layer", "is thicker than the vessel; accepted: less than half its width");
+  if (analysis.layer >= c.channel.size[2])
+    t.fail("layer", "is thicker than the channel; accepted: less than its height");
+  const std::string walls = t.word("walls");
+  analysis.walls = in_vessel(c)       ? LayerWalls::vessel
+                   : walls == "lower" ? LayerWalls::lower
+                                      : LayerWalls::both;
+  if (in_vessel(c) && walls != "vessel")
+    t.refuse_if_given("walls", "is for plates; accepted in a tube or voxels: \"vessel\"");
+  if (!in_vessel(c) && walls == "vessel")
+    t.fail("walls", "needs a tube or voxels; accepted: \"lower\", \"both\"");
+}
+
+void read_run(Case& c, const Table& run, const Table& analysis) {
   if (run.has("time") && run.has("steps"))
     run.fail("steps", "excludes time; accepted: one of the two");
   if (!run.has("time") && !run.has("steps"))
@@ -427,11 +333,11 @@ void read_rest(Case& c, const Source& source) {
       c.run.time ? *c.run.time : static_cast<double>(*c.run.steps) * lattice_units(c).dt;
   if (!analysis.has("average_from") && duration <= c.analysis.average_from)
     c.analysis.average_from = 0;
-  const Table output = section(source, "output");
-  c.output.fields =
-      output.is_word("fields", "never") ? std::nullopt : output.optional_quantity("fields");
-  c.output.series =
-      output.is_word("series", "never") ? std::nullopt : output.optional_quantity("series");
+}
+
+void read_output(Case& c, const Table& t) {
+  c.output.fields = t.is_word("fields", "never") ? std::nullopt : t.optional_quantity("fields");
+  c.output.series = t.is_word("series", "never") ? std::nullopt : t.optional_quantity("series");
 }
 
 /// Every key's place, for messages that come after reading.
@@ -447,8 +353,11 @@ void note_positions(Case& c, const Source& source, const toml::node& node,
       note_positions(c, source, *list->get(k), entry_path(path.c_str(), k, list->size()));
 }
 
-std::string effective_text(const Source& source, const std::string& text) {
-  if (source.overridden.empty()) return text;
+/// The case as run: overrides applied, and the surface where the run directory keeps its copy.
+std::string effective_text(Source& source, const Case& c, const std::string& text) {
+  const std::string copy = geometry_copy(c);
+  if (!copy.empty()) source.root["channel"].as_table()->insert_or_assign("geometry", copy);
+  if (copy.empty() && source.overridden.empty()) return text;
   std::stringstream out;
   out << source.root << "\n";
   return out.str();
@@ -489,7 +398,12 @@ Case read_case(const std::string& path, const std::vector<std::string>& override
   fluid.require("viscosity");
   c.fluid.viscosity = fluid.quantity("viscosity");
   c.fluid.density = fluid.quantity("density");
-  read_numerics(c, section(source, "numerics"), channel);
+  const Table numerics = section(source, "numerics");
+  numerics.require("dx");
+  c.numerics.dx = numerics.quantity("dx");
+  check_size(c, channel);
+  read_numerics(c, numerics);
+  read_vessel(c, channel, path);
   for (const Table& t : entries(source, "cell")) c.cells.push_back(read_cell(t));
   for (const Table& t : entries(source, "carrier")) {
     c.carriers.push_back(read_carrier(t));
@@ -498,10 +412,13 @@ Case read_case(const std::string& path, const std::vector<std::string>& override
   }
   read_contact(c, section(source, "contact"));
   read_magnetic(c, section(source, "magnetic"), source.root.contains("magnetic"));
-  read_rest(c, source);
-  c.text = effective_text(source, text);
+  const Table analysis = section(source, "analysis");
+  read_analysis(c, analysis);
+  read_run(c, section(source, "run"), analysis);
+  read_output(c, section(source, "output"));
   c.file = path;
   note_positions(c, source, source.root, "");
+  c.text = effective_text(source, c, text);
   return c;
 }
 

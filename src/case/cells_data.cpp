@@ -150,7 +150,7 @@ private:
     double wrapped[3];
     int image[3];
     for (std::size_t d = 0; d < 3; ++d) {
-      const bool periodic = d < 2 || c_.channel.boundary == Boundary::periodic;
+      const bool periodic = d < 2 || c_.channel.boundary != Boundary::plates;
       const double at = x[d] / units_.dx;
       image[d] = periodic ? static_cast<int>(std::floor(at / size[d])) : 0;
       wrapped[d] = at - image[d] * size[d];

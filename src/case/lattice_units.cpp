@@ -13,7 +13,7 @@ double LatticeUnits::magnetic_field() const { return std::sqrt(vacuum_permeabili
 
 LatticeUnits lattice_units(const Case& c) {
   const auto& n = c.numerics;
-  const double nu = (n.tau - 0.5) / 3;
+  const double nu = (n.scheme == "exponential" ? n.tau : n.tau - 0.5) / 3;
   LatticeUnits units;
   units.dx = n.dx;
   if (n.dt) {
@@ -22,11 +22,51 @@ LatticeUnits lattice_units(const Case& c) {
     return units;
   }
   units.density = n.cell_reynolds ? *n.cell_reynolds * c.fluid.viscosity /
-                                        (c.channel.shear_rate * cell_radius * cell_radius)
+                                        (nominal_shear_rate(c) * cell_radius * cell_radius)
                                   : c.fluid.density;
   units.dt = nu * n.dx * n.dx * units.density / c.fluid.viscosity;
   return units;
 }
+
+double width(const Case& c) {
+  const auto& s = c.channel.size;
+  if (c.channel.boundary == Boundary::tube) return c.channel.diameter;
+  if (c.channel.boundary == Boundary::plates) return s[2];
+  return *std::min_element(s.begin(), s.end());
+}
+
+double nominal_shear_rate(const Case& c) {
+  if (c.channel.mean_velocity) return *c.channel.mean_velocity / width(c);
+  return c.channel.shear_rate;
+}
+
+namespace {
+
+/// k of the mean velocity u = k g/mu of plasma in a straight channel under the force density g
+/// [m2]: H^2/12 between plates, R^2/8 in a tube.
+double conductance(const Case& c) {
+  if (c.channel.boundary == Boundary::plates) return std::pow(width(c), 2) / 12;
+  const double radius = c.channel.boundary == Boundary::tube ? c.channel.diameter / 2
+                                                             : c.vessel.widest * c.numerics.dx;
+  return radius * radius / 8;
+}
+
+}  // namespace
+
+double starting_force(const Case& c) {
+  if (c.channel.mean_velocity) return *c.channel.mean_velocity * c.fluid.viscosity / conductance(c);
+  return c.channel.body_force[static_cast<std::size_t>(c.channel.axis)];
+}
+
+double fastest_flow(const Case& c) {
+  if (c.channel.boundary == Boundary::periodic) return 0;
+  const auto v = plate_velocity(c);
+  const double mean = std::fabs(starting_force(c)) * conductance(c) / c.fluid.viscosity;
+  const double peak_over_mean = c.channel.boundary == Boundary::plates ? 1.5 : 2;
+  return std::max(std::fabs(v[0]), std::fabs(v[1])) + peak_over_mean * mean;
+}
+
+double surface_scale(const Case& c) { return c.channel.geometry_unit / c.numerics.dx; }
 
 std::array<int, 3> nodes(const Case& c) {
   std::array<int, 3> n{};
@@ -75,11 +115,13 @@ double stokes_friction(const Case& c, const Carrier& carrier) {
 }
 
 double point_radius(const Case& c) {
+  const auto kernel = ibm::delta_kernel(c.numerics.kernel);
+  if (c.numerics.scheme == "exponential")
+    return ibm::exponential_radius(kernel, c.numerics.tau) * c.numerics.dx;
   const fluid::Relaxation relaxation = c.numerics.scheme == "bgk"
                                            ? fluid::Relaxation::bgk(c.numerics.tau)
                                            : fluid::Relaxation{c.numerics.tau, 3.0 / 16};
-  return ibm::hydrodynamic_radius(ibm::delta_kernel(c.numerics.kernel), relaxation.magic) *
-         c.numerics.dx;
+  return ibm::hydrodynamic_radius(kernel, relaxation.magic) * c.numerics.dx;
 }
 
 double bare_friction(const Case& c, const Carrier& carrier) {

@@ -27,8 +27,29 @@ struct LatticeUnits {
 };
 
 /// The units of a case. tau and dx leave one freedom, fixed by dt, by cell_reynolds (rho = Re
-/// mu/(shear R^2)), or by the real density: nu_l = (tau - 1/2)/3, dt = nu_l dx^2 rho/mu.
+/// mu/(shear R^2)), or by the real density: dt = nu_l dx^2 rho/mu, where nu_l = (tau - 1/2)/3, or
+/// tau/3 in the exponential scheme.
 LatticeUnits lattice_units(const Case& c);
+
+/// Width of the channel across the flow [m]: the diameter of a tube, the distance of plates, or the
+/// smallest side of the box.
+double width(const Case& c);
+
+/// The shear rate of cell_reynolds [1/s]: that of the plates, or the pseudo shear rate
+/// mean_velocity/width; zero when neither is given.
+double nominal_shear_rate(const Case& c);
+
+/// Body force density along the flow's axis with which a run begins [N/m3]: the case's, or for a
+/// mean velocity that of plasma alone between plates (12 mu u/H^2) or in a tube (8 mu u/R^2), in
+/// voxels in a tube of the radius of the widest place.
+double starting_force(const Case& c);
+
+/// Estimate of the fastest flow [m/s]: of the plates, and of plasma alone under that force, 3/2 of
+/// the mean between plates and twice the mean in a tube or voxels.
+double fastest_flow(const Case& c);
+
+/// Lattice units per unit of the surface file.
+double surface_scale(const Case& c);
 
 /// Nodes along each axis; the reader has made sure that size/dx is whole.
 std::array<int, 3> nodes(const Case& c);

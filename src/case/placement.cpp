@@ -40,17 +40,27 @@ private:
 class Box {
 public:
   explicit Box(const Case& c)
-      : size(c.channel.size), periodic{true, true, c.channel.boundary == Boundary::periodic} {}
+      : size(c.channel.size), periodic{true, true, c.channel.boundary != Boundary::plates},
+        case_(c) {}
   Vec3 nearest(Vec3 d) const {
     for (std::size_t a = 0; a < 3; ++a)
       if (periodic[a]) d[a] -= size[a] * std::round(d[a] / size[a]);
     return d;
   }
-  bool between_plates(const Vec3& x, double gap) const {
+  /// Whether a point is in the fluid, at least `gap` from every wall.
+  bool off_walls(const Vec3& x, double gap) const {
+    if (in_vessel(case_)) return wall_distance(case_, x) >= gap;
     return periodic[2] || (x.z >= gap && x.z <= size[2] - gap);
+  }
+  /// Whether an edge whose ends are in the fluid passes through a wall too thin to hold an end.
+  bool crosses_wall(const Vec3& a, const Vec3& b) const {
+    return in_vessel(case_) && wall_distance(case_, 0.5 * (a + b)) <= 0;
   }
   std::array<double, 3> size;
   std::array<bool, 3> periodic;
+
+private:
+  const Case& case_;
 };
 
 /// Points sorted into bins at least as wide as the distance that is asked about.
@@ -123,9 +133,13 @@ public:
   bool fits(const CellModel& model, const Pose& pose) const {
     for (const Vec3& p : model.mesh.x) {
       const Vec3 x = pose.place(p);
-      if (!box_.between_plates(x, plate_gap) || vertices_.any_near(x)) return false;
+      if (!box_.off_walls(x, plate_gap) || vertices_.any_near(x)) return false;
       if (inside_any(x)) return false;
     }
+    for (const auto& e : model.topology.edges)
+      if (box_.crosses_wall(pose.place(model.mesh.x[static_cast<std::size_t>(e.a)]),
+                            pose.place(model.mesh.x[static_cast<std::size_t>(e.b)])))
+        return false;
     for (std::size_t k = 0; k < poses_.size(); ++k) {
       if (norm(box_.nearest(poses_[k].centre - pose.centre)) > cell_diameter) continue;
       for (const Vec3& x : placed_[k])
@@ -144,8 +158,7 @@ public:
   }
 
   bool carrier_fits(const Vec3& x) const {
-    return box_.between_plates(x, carrier_plate_gap) && !carriers_near_.any_near(x) &&
-           !inside_any(x);
+    return box_.off_walls(x, carrier_plate_gap) && !carriers_near_.any_near(x) && !inside_any(x);
   }
 
   const Box& box() const { return box_; }
@@ -176,7 +189,8 @@ void place_at_random(System& system, Packing& packing, const Case& c, std::size_
   }
 }
 
-/// Cells flat in layers, as close as their gap allows.
+/// Cells flat in layers, as close as their gap allows. In a vessel only the places of the grid that
+/// fit into it are taken.
 void place_on_grid(System& system, Packing& packing, const Case& c, std::size_t model, int count) {
   const auto& x = system.models[model].mesh.x;
   double rim = 0, top = 0;
@@ -187,22 +201,30 @@ void place_on_grid(System& system, Packing& packing, const Case& c, std::size_t 
   const double margin = box.periodic[2] ? 0 : plate_gap - cell_gap / 2;
   const int nx = static_cast<int>(box.size[0] / side), ny = static_cast<int>(box.size[1] / side),
             nz = static_cast<int>((box.size[2] - 2 * margin) / height);
-  if (static_cast<long>(nx) * ny * nz < count)
-    throw Error(cell_key(c, model) + ": a grid has room for " + std::to_string(nx * ny * nz) +
-                " of " + std::to_string(count) +
-                " cells; accepted: fewer cells, or a packed state (placement \"compress\")");
-  for (int n = 0; n < count; ++n) {
+  const auto no_room = [&](long room) {
+    return Error(cell_key(c, model) + ": a grid has room for " + std::to_string(room) + " of " +
+                 std::to_string(count) +
+                 " cells; accepted: fewer cells, or a packed state (placement \"compress\")");
+  };
+  const long places = static_cast<long>(nx) * ny * nz;
+  if (places < count) throw no_room(places);
+  int placed = 0;
+  for (int n = 0; n < places && placed < count; ++n) {
     const int i = n % nx, j = n / nx % ny, k = n / (nx * ny);
     const Pose pose{{(i + 0.5) * box.size[0] / nx, (j + 0.5) * box.size[1] / ny,
                      margin + (k + 0.5) * (box.size[2] - 2 * margin) / nz},
                     {1, 0, 0},
                     {0, 1, 0},
                     {0, 0, 1}};
-    if (!packing.fits(system.models[model], pose))
+    if (!packing.fits(system.models[model], pose)) {
+      if (in_vessel(c)) continue;
       throw Error(cell_key(c, model) +
                   ": the grid overlaps cells of another entry; accepted: random placement of one");
+    }
     system.cells.push_back({model, packing.add(system.models[model], pose)});
+    ++placed;
   }
+  if (placed < count) throw no_room(placed);
 }
 
 void place_carriers(System& system, const Packing& packing, const Case& c, std::size_t entry,
@@ -256,9 +278,8 @@ std::vector<CellModel> cell_models(const Case& c) {
 
 int cell_count(const Case& c, const Cell& cell, const CellModel& model) {
   if (cell.count) return *cell.count;
-  const auto& s = c.channel.size;
   return static_cast<int>(
-      std::lround(cell.hematocrit.value_or(0) * s[0] * s[1] * s[2] / model.volume));
+      std::lround(cell.hematocrit.value_or(0) * fluid_volume(c) / model.volume));
 }
 
 System place(const Case& c) {

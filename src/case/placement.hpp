@@ -38,8 +38,9 @@ std::vector<CellModel> cell_models(const Case& c);
 int cell_count(const Case& c, const Cell& cell, const CellModel& model);
 
 /// Put cells, then carriers, into the channel: no cell nearer than 0.40 um to another (vertex to
-/// vertex) or 0.3 um to a plate; carriers uniform between 0.25 um from either plate, at least 0.56
-/// um from every vertex and outside every cell. The same case gives the same state.
+/// vertex) or 0.3 um to a plate or a vessel's wall; carriers uniform in the fluid from 0.25 um off
+/// the walls, at least 0.56 um from every vertex and outside every cell. The same case gives the
+/// same state.
 /// @throws Error saying how many found a place when the channel is too full
 System place(const Case& c);
 

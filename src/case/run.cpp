@@ -1,9 +1,12 @@
 #include "case/run.hpp"
 
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <map>
 
 #include <nlohmann/json.hpp>
 
@@ -34,8 +37,18 @@ int fail(const std::string& message, int code) {
   return code;
 }
 
+/// The files of a run directory before it runs: name and content.
+using Files = std::map<std::string, std::string>;
+
+std::string whole_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string content{std::istreambuf_iterator<char>(file), {}};
+  if (!file) throw Error(path + ": cannot be read");
+  return content;
+}
+
 /// The card and the starting state; nothing is written. Rank 0 only.
-int prepare(const Case& c, const RunOptions& options, std::string& data, std::string& script) {
+int prepare(const Case& c, const RunOptions& options, Files& files) {
   const auto models = cell_models(c);
   const Card card = make_card(c, models);
   if (card.refused()) {
@@ -47,18 +60,18 @@ int prepare(const Case& c, const RunOptions& options, std::string& data, std::st
                     ": exists already; accepted: another directory, or --force to replace it",
                 bad_input);
   const System system = place(c);
-  data = cells_data(c, system);
-  script = lammps_script(c, system);
+  files["case.toml"] = c.text;
+  files["cells.data"] = cells_data(c, system);
+  files["in.lammps"] = lammps_script(c, system);
+  if (const std::string copy = geometry_copy(c); !copy.empty())
+    files[copy] = whole_file(c.channel.geometry);
   return done;
 }
 
-void write_directory(const Case& c, const RunOptions& options, const std::string& data,
-                     const std::string& script) {
+void write_directory(const RunOptions& options, const Files& files) {
   std::filesystem::remove_all(options.out);
   io::make_directory(options.out);
-  io::replace_file(options.out + "/case.toml", c.text);
-  io::replace_file(options.out + "/cells.data", data);
-  io::replace_file(options.out + "/in.lammps", script);
+  for (const auto& [name, content] : files) io::replace_file(options.out + "/" + name, content);
 }
 
 /// Run the script of the directory, with a progress line before its `run`.
@@ -74,11 +87,11 @@ void execute(lammps::Host& host, const std::string& path, double dt) {
 
 nlohmann::json summary(const Case& c, lammps::Host& host, double wall_s) {
   const LatticeUnits units = lattice_units(c);
-  const auto n = nodes(c);
   const auto* series = lammps::find_fix<LAMMPS_NS::FixHemoSeries>(&host.lammps(), "hemo/series");
   const auto* watch = lammps::find_fix<LAMMPS_NS::FixHemoWatch>(&host.lammps(), "hemo/watch");
   const auto& seen = watch->record();
-  const double updates = static_cast<double>(n[0]) * n[1] * n[2] * static_cast<double>(steps(c));
+  const double fluid_nodes = fluid_volume(c) / std::pow(units.dx, 3);
+  const double updates = fluid_nodes * static_cast<double>(steps(c));
   return {
       {"title", c.title},
       {"steps", steps(c)},
@@ -117,12 +130,12 @@ int run_case(const Case& c, const RunOptions& options, MPI_Comm comm) {
   int code = done;
   if (rank == 0) {
     try {
-      std::string data, script;
-      code = prepare(c, options, data, script);
+      Files files;
+      code = prepare(c, options, files);
       if (code == done) {
         std::printf("%s\n", c.title.c_str());
         try {
-          write_directory(c, options, data, script);
+          write_directory(options, files);
         } catch (const std::exception& e) {
           code = fail(e.what(), file_trouble);
         }

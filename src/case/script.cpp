@@ -17,6 +17,10 @@ constexpr double dipole_radii =
 constexpr double mesh_reference = 3286;  // vertices for which contact energies are given
 constexpr int watch_every = 100;
 
+const char* layer_walls(LayerWalls walls) {
+  return walls == LayerWalls::lower ? "lower" : walls == LayerWalls::both ? "both" : "vessel";
+}
+
 class Script {
 public:
   Script(const Case& c, const System& system)
@@ -184,7 +188,7 @@ private:
       line(" feedback %s", c_.carriers[0].feedback ? "yes" : "no");
       field();
     }
-    plates();
+    walls();
     fluid();
   }
 
@@ -207,35 +211,60 @@ private:
     }
   }
 
-  void plates() {
-    if (c_.channel.boundary != Boundary::plates || cells_ + carriers_ == 0) return;
+  void walls() {
+    if (c_.channel.boundary == Boundary::periodic || cells_ + carriers_ == 0) return;
     const double sigma = length(c_.contact.plate_sigma), epsilon = kBT / units_.energy();
     const double cut = contact::lj_cutoff_over_sigma * sigma;
-    line("fix plates all wall/lj126 zlo EDGE %.9g %.9g %.9g zhi EDGE %.9g %.9g %.9g", epsilon,
-         sigma, cut, epsilon, sigma, cut);
+    if (in_vessel(c_))
+      line("fix walls all hemo/wall %.9g %.9g %.9g", epsilon, sigma, cut);
+    else
+      line("fix plates all wall/lj126 zlo EDGE %.9g %.9g %.9g zhi EDGE %.9g %.9g %.9g", epsilon,
+           sigma, cut, epsilon, sigma, cut);
   }
 
   void fluid() {
     append("fix fluid all hemo/fluid tau %.12g scheme %s kernel %s", c_.numerics.tau,
            c_.numerics.scheme.c_str(), c_.numerics.kernel.c_str());
-    if (c_.channel.boundary == Boundary::plates) {
-      const auto v = plate_velocity(c_);
-      append(" plates z lower 0 %.12g 0 upper 0 %.12g 0", v[0] / units_.velocity(),
-             v[1] / units_.velocity());
-      if (c_.channel.shear_rate != 0) append(" initial linear");
-    }
-    const auto& g = c_.channel.body_force;
-    if (g[0] != 0 || g[1] != 0 || g[2] != 0)
-      append(" force %.12g %.12g %.12g", g[0] / units_.force_density(),
-             g[1] / units_.force_density(), g[2] / units_.force_density());
+    if (c_.numerics.precision != "double") append(" precision %s", c_.numerics.precision.c_str());
+    if (c_.channel.boundary == Boundary::plates) moving_plates();
+    if (c_.channel.boundary == Boundary::tube) tube();
+    if (c_.channel.boundary == Boundary::voxels)
+      append(" surface %s %.12g", geometry_copy(c_).c_str(), surface_scale(c_));
+    drive();
     t_ += "\n";
+  }
+
+  void moving_plates() {
+    const auto v = plate_velocity(c_);
+    append(" plates z lower 0 %.12g 0 upper 0 %.12g 0", v[0] / units_.velocity(),
+           v[1] / units_.velocity());
+    if (c_.channel.shear_rate != 0) append(" initial linear");
+  }
+
+  void tube() {
+    append(" tube %c", "xyz"[c_.channel.axis]);
+    for (int d = 0; d < 3; ++d)
+      if (d != c_.channel.axis)
+        append(" %.12g", length(c_.channel.size[static_cast<std::size_t>(d)]) / 2);
+    append(" %.12g", length(c_.channel.diameter) / 2);
+  }
+
+  void drive() {
+    double g[3] = {0, 0, 0};
+    for (std::size_t d = 0; d < 3; ++d) g[d] = c_.channel.body_force[d] / units_.force_density();
+    if (c_.channel.mean_velocity) {
+      g[c_.channel.axis] = starting_force(c_) / units_.force_density();
+      append(" mean_velocity %c %.12g", "xyz"[c_.channel.axis],
+             *c_.channel.mean_velocity / units_.velocity());
+    }
+    if (g[0] != 0 || g[1] != 0 || g[2] != 0) append(" force %.12g %.12g %.12g", g[0], g[1], g[2]);
   }
 
   void observers() {
     const double dx_um = units_.dx * 1e6;
     if (carriers_ > 0) {
       line("compute margination carriers hemo/margination layer %.9g walls %s",
-           length(c_.analysis.layer), c_.analysis.walls == LayerWalls::lower ? "lower" : "both");
+           length(c_.analysis.layer), layer_walls(c_.analysis.walls));
       // Without a series the first and the last row remain: a run always has its probability.
       line(
           "fix series all hemo/series %ld margination margination.csv dt_s %.12g average_from %.9g",

@@ -16,6 +16,7 @@ struct Dimension {
 namespace dimension {
 inline constexpr Dimension length{"a length", "m", "27 um"};
 inline constexpr Dimension time{"a time", "s", "0.5 s"};
+inline constexpr Dimension velocity{"a velocity", "m/s", "1 mm/s"};
 inline constexpr Dimension rate{"a rate", "s-1", "200 s-1"};
 inline constexpr Dimension viscosity{"a viscosity", "Pa.s", "1.2 mPa.s"};
 inline constexpr Dimension density{"a density", "kg/m3", "1000 kg/m3"};

@@ -16,9 +16,7 @@
 namespace hemomag::fluid {
 
 /// What g needs to know of a node. T is a number or a SIMD vector.
-template <class T> struct Moments {
-  T drho, ux, uy, uz, Fx, Fy, Fz;
-};
+template <class T> struct Moments { T drho, ux, uy, uz, Fx, Fy, Fz; };
 
 /// g_i - w_i for pairs of opposite directions, as even and odd parts.
 template <class T, class R> struct Source {

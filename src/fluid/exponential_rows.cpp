@@ -55,10 +55,10 @@ template <Pass pass, bool solid, class Real>
             if constexpr (solid)
               for (int i = 0; i < 19; ++i) g[i] = wet(g[i]);
 
-            const Vector drho = ((g[0] + (g[1] + g[2])) + ((g[3] + g[4]) + (g[5] + g[6]))) +
-                                (((g[7] + g[8]) + (g[9] + g[10])) +
-                                 ((g[11] + g[12]) + (g[13] + g[14]))) +
-                                ((g[15] + g[16]) + (g[17] + g[18]));
+            const Vector drho =
+                ((g[0] + (g[1] + g[2])) + ((g[3] + g[4]) + (g[5] + g[6]))) +
+                (((g[7] + g[8]) + (g[9] + g[10])) + ((g[11] + g[12]) + (g[13] + g[14]))) +
+                ((g[15] + g[16]) + (g[17] + g[18]));
             const Vector per_rho = Real(1) / (drho + Real(1));
             const Vector ux = per_rho * ((g[1] - g[2]) + ((g[7] - g[10]) + (g[8] - g[9])) +
                                          ((g[11] - g[14]) - (g[12] - g[13])));

@@ -50,8 +50,8 @@ Vec3 add_reflected_source(const Plate& plate, Pass next, const Populations<Real>
   Vec3 given;
   for (const int i : crossing(plate.axis, plate.side == Side::low ? -1 : 1)) {
     const int j = opposite[static_cast<std::size_t>(i)];
-    const Real push = static_cast<Real>(6 * w[static_cast<std::size_t>(i)] *
-                                        dot(direction(i), plate.velocity));
+    const Real push =
+        static_cast<Real>(6 * w[static_cast<std::size_t>(i)] * dot(direction(i), plate.velocity));
     Real* const target = place(next, i, f, layout);
     double sum = 0;
     for_each_row(first_layer(plate, layout), layout, [&](std::ptrdiff_t row, int n) {
@@ -75,8 +75,7 @@ Vec3 add_reflected_source(const WallLinks<Real>& links, Pass next, const Populat
   const Real K = static_cast<Real>(sense * rates.K), tau = static_cast<Real>(rates.tau);
   Vec3 given;
   links.for_each([&](int i, std::ptrdiff_t x) {
-    const Real g =
-        source_population(last, x, opposite[static_cast<std::size_t>(i)], tau);
+    const Real g = source_population(last, x, opposite[static_cast<std::size_t>(i)], tau);
     place(next, i, f, layout)[x] += K * g;
     given -= (2 * rates.K * g + at_rest(i, rates)) * direction(i);
   });

@@ -24,7 +24,8 @@ Vec3 bounce(const Plate& plate, const Populations<Real>& f, const lattice::NodeL
   Vec3 given;
   for (const int j : crossing(plate.axis, plate.side == Side::low ? -1 : 1)) {
     const int back = opposite[j];
-    const Real push = static_cast<Real>(6.0 * streamed * w[j] * dot(direction(back), plate.velocity));
+    const Real push =
+        static_cast<Real>(6.0 * streamed * w[j] * dot(direction(back), plate.velocity));
     const std::ptrdiff_t beyond = layout.index(e[j][0], e[j][1], e[j][2]);
     double sum = 0;
     for_each_row(first_layer(plate, layout), layout, [&](std::ptrdiff_t row, int n) {

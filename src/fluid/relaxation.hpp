@@ -20,9 +20,7 @@ struct Relaxation {
   /// The single relaxation time of BGK: both rates 1/tau. Walls then lie off half-way by an amount
   /// that grows with tau.
   static Relaxation bgk(double tau) { return {tau, (tau - 0.5) * (tau - 0.5)}; }
-  static Relaxation exponential(double tau) {
-    return {tau, 3.0 / 16, {}, Collision::exponential};
-  }
+  static Relaxation exponential(double tau) { return {tau, 3.0 / 16, {}, Collision::exponential}; }
 
   double viscosity() const {
     return collision == Collision::exponential ? tau / 3.0 : (tau - 0.5) / 3.0;

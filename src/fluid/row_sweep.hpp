@@ -17,8 +17,8 @@ constexpr int vector_bytes = 16;
 /// A vector of as many numbers as a register of this level holds.
 template <class Real> struct Simd {
   typedef Real Vector __attribute__((vector_size(vector_bytes)));
-  typedef Real Unaligned __attribute__((vector_size(vector_bytes), aligned(alignof(Real)),
-                                        may_alias));
+  typedef Real Unaligned
+      __attribute__((vector_size(vector_bytes), aligned(alignof(Real)), may_alias));
   static constexpr int lanes = vector_bytes / static_cast<int>(sizeof(Real));
 };
 
@@ -38,8 +38,7 @@ constexpr int ez[19] = {0, 0, 0, 0, 0, 1, -1, 0, 0, 0, 0, 1, 1, -1, -1, 1, -1, 1
 constexpr int opposite[19] = {0, 2, 1, 4, 3, 6, 5, 10, 9, 8, 7, 14, 13, 12, 11, 18, 17, 16, 15};
 
 /// Ghosts of a row of a node field, from its other end.
-template <class Real>
-[[gnu::always_inline]] inline void wrap_ghosts(Real* row, int n, int halo) {
+template <class Real> [[gnu::always_inline]] inline void wrap_ghosts(Real* row, int n, int halo) {
   for (int k = 0; k < halo; ++k) {
     row[-1 - k] = row[n - 1 - k];
     row[n + k] = row[k];

@@ -38,15 +38,15 @@ template <class T, class R>
                  (((g[7] + g[8]) + (g[9] + g[10])) + ((g[11] + g[12]) + (g[13] + g[14]))) +
                  ((g[15] + g[16]) + (g[17] + g[18]));
   const R half = R(0.5);
-  const T px = ((g[1] - g[2]) + ((g[7] - g[10]) + (g[8] - g[9])) +
-                ((g[11] - g[14]) - (g[12] - g[13]))) +
-               half * F[0];
-  const T py = ((g[3] - g[4]) + ((g[7] - g[10]) - (g[8] - g[9])) +
-                ((g[15] - g[18]) + (g[16] - g[17]))) +
-               half * F[1];
-  const T pz = ((g[5] - g[6]) + ((g[11] - g[14]) + (g[12] - g[13])) +
-                ((g[15] - g[18]) - (g[16] - g[17]))) +
-               half * F[2];
+  const T px =
+      ((g[1] - g[2]) + ((g[7] - g[10]) + (g[8] - g[9])) + ((g[11] - g[14]) - (g[12] - g[13]))) +
+      half * F[0];
+  const T py =
+      ((g[3] - g[4]) + ((g[7] - g[10]) - (g[8] - g[9])) + ((g[15] - g[18]) + (g[16] - g[17]))) +
+      half * F[1];
+  const T pz =
+      ((g[5] - g[6]) + ((g[11] - g[14]) + (g[12] - g[13])) + ((g[15] - g[18]) - (g[16] - g[17]))) +
+      half * F[2];
   const T rho = drho + R(1);
   const T per_rho = R(1) / rho;
   const T ux = px * per_rho, uy = py * per_rho, uz = pz * per_rho;

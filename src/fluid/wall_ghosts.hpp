@@ -15,8 +15,8 @@ namespace hemomag::fluid {
 ///
 ///   u_s = d_s sum_k w_k d_k u_k / sum_k w_k d_k^2,    w_k = 1/|x_k - x_s|^4
 ///
-/// which is exact for a linear flow along a plane wall, as the mirror rule of plates is. Forces that
-/// kernels spread on solid nodes go to fluid nodes by the adjoint; the wall takes the rest.
+/// which is exact for a linear flow along a plane wall, as the mirror rule of plates is. Forces
+/// that kernels spread on solid nodes go to fluid nodes by the adjoint; the wall takes the rest.
 template <class Real> class WallGhosts {
 public:
   WallGhosts() = default;

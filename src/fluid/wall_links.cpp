@@ -19,11 +19,9 @@ WallLinks<Real>::WallLinks(const lattice::NodeLayout& layout, WallRule rule,
           const auto& c = e[i];
           if (wet(x + c[0], y + c[1], z + c[2])) continue;
           const std::ptrdiff_t at = layout.index(x, y, z);
-          const double q =
-              rule == WallRule::halfway ? 0.5 : fraction(x, y, z, static_cast<int>(i));
+          const double q = rule == WallRule::halfway ? 0.5 : fraction(x, y, z, static_cast<int>(i));
           if (q >= 0.5)
-            far_[i].push_back(
-                {at, static_cast<Real>(0.5 / q), static_cast<Real>(1 - 0.5 / q)});
+            far_[i].push_back({at, static_cast<Real>(0.5 / q), static_cast<Real>(1 - 0.5 / q)});
           else if (wet(x - c[0], y - c[1], z - c[2]))
             near_[i].push_back({at, static_cast<Real>(2 * q), static_cast<Real>(1 - 2 * q)});
           else  // too narrow a gap to interpolate in
@@ -57,8 +55,8 @@ Vec3 WallLinks<Real>::bounce(const Populations<Real>& f, bool before, double str
     };
     turn(near_[i], behind);
     turn(far_[i], back);
-    given += sum * Vec3{static_cast<double>(c[0]), static_cast<double>(c[1]),
-                        static_cast<double>(c[2])};
+    given +=
+        sum * Vec3{static_cast<double>(c[0]), static_cast<double>(c[1]), static_cast<double>(c[2])};
   }
   return given;
 }

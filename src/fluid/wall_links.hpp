@@ -61,7 +61,7 @@ public:
 
 private:
   struct Link {
-    std::ptrdiff_t x;  ///< offset of the fluid node
+    std::ptrdiff_t x;    ///< offset of the fluid node
     Real direct, other;  ///< weights of f_i*(x) and of the second population
   };
   Vec3 bounce(const Populations<Real>& f, bool before, double streamed) const;

@@ -10,6 +10,10 @@
 #include "update.h"
 #include "utils.h"
 
+#include "lammps/compat.hpp"
+#include "lammps/fix_hemo_fluid.h"
+#include "solver/fluid_solver.hpp"
+
 using namespace LAMMPS_NS;
 namespace analysis = hemomag::analysis;
 
@@ -23,11 +27,13 @@ ComputeHemoMargination::ComputeHemoMargination(LAMMPS* lmp, int narg, char** arg
     const std::string key = arg[at], value = arg[at + 1];
     if (key == "layer")
       layer_ = utils::numeric(FLERR, value.c_str(), false, lmp);
-    else if (key == "walls" && (value == "lower" || value == "both"))
-      walls_ = value == "lower" ? analysis::LayerWalls::lower : analysis::LayerWalls::both;
+    else if (key == "walls" && (value == "lower" || value == "vessel"))
+      walls_ = analysis::LayerWalls::lower, in_vessel_ = value == "vessel";
+    else if (key == "walls" && value == "both")
+      walls_ = analysis::LayerWalls::both, in_vessel_ = false;
     else
       error->all(FLERR, "compute hemo/margination: " + key + " " + value +
-                            "; accepted: layer L, walls lower|both");
+                            "; accepted: layer L, walls lower|both|vessel");
   }
   if (!(layer_ > 0))
     error->all(FLERR, std::string("compute hemo/margination needs layer L with L > 0"));
@@ -35,14 +41,31 @@ ComputeHemoMargination::ComputeHemoMargination(LAMMPS* lmp, int narg, char** arg
 
 ComputeHemoMargination::~ComputeHemoMargination() { delete[] vector; }
 
-/// Heights of this rank's free particles, and on rank 0 also of the centres of all worms.
+void ComputeHemoMargination::init() {
+  if (!in_vessel_) return;
+  fluid_ = hemomag::lammps::find_fix<FixHemoFluid>(lmp, "hemo/fluid");
+  if (!fluid_)
+    error->all(FLERR, std::string("compute hemo/margination: walls vessel needs a fix hemo/fluid"));
+}
+
+double ComputeHemoMargination::height(int i) const {
+  if (in_vessel_)
+    return fluid_->solver().wall_distance({atom->x[i][0], atom->x[i][1], atom->x[i][2]}).distance;
+  if (atom->molecule[i] == 0) return atom->x[i][2];
+  double unwrapped[3];
+  domain->unmap(atom->x[i], atom->image[i], unwrapped);
+  return unwrapped[2];
+}
+
+/// Heights of this rank's free particles, and on rank 0 also of all worms, the mean over their
+/// beads: that of the centre between plates; in a vessel the mean distance from the wall.
 std::vector<double> ComputeHemoMargination::heights() const {
   std::vector<double> z;
   tagint lo = std::numeric_limits<tagint>::max(), hi = 0, range[2], all[2];
   for (int i = 0; i < atom->nlocal; ++i) {
     if (!(atom->mask[i] & groupbit)) continue;
     if (atom->molecule[i] == 0) {
-      z.push_back(atom->x[i][2]);
+      z.push_back(height(i));
     } else {
       lo = std::min(lo, atom->molecule[i]);
       hi = std::max(hi, atom->molecule[i]);
@@ -56,10 +79,8 @@ std::vector<double> ComputeHemoMargination::heights() const {
   std::vector<double> sum(2 * static_cast<std::size_t>(hi - lo + 1), 0.0), total(sum.size());
   for (int i = 0; i < atom->nlocal; ++i) {
     if (!(atom->mask[i] & groupbit) || atom->molecule[i] == 0) continue;
-    double unwrapped[3];
-    domain->unmap(atom->x[i], atom->image[i], unwrapped);
     const auto worm = 2 * static_cast<std::size_t>(atom->molecule[i] - lo);
-    sum[worm] += unwrapped[2];
+    sum[worm] += height(i);
     sum[worm + 1] += 1;
   }
   MPI_Reduce(sum.data(), total.data(), static_cast<int>(sum.size()), MPI_DOUBLE, MPI_SUM, 0, world);
@@ -73,10 +94,12 @@ std::vector<double> ComputeHemoMargination::heights() const {
 
 void ComputeHemoMargination::compute_vector() {
   invoked_vector = update->ntimestep;
+  if (in_vessel_ && !fluid_->solver().has_vessel())
+    error->all(FLERR, std::string("compute hemo/margination: walls vessel needs a fluid with tube "
+                                  "or surface"));
   const auto z = heights();
-  const double height = domain->boxhi[2] - domain->boxlo[2];
-  long mine[2] = {analysis::in_layer(z, layer_, height, walls_), static_cast<long>(z.size())},
-       all[2];
+  const double top = domain->boxhi[2] - domain->boxlo[2];
+  long mine[2] = {analysis::in_layer(z, layer_, top, walls_), static_cast<long>(z.size())}, all[2];
   MPI_Allreduce(mine, all, 2, MPI_LONG, MPI_SUM, world);
   if (at_start_ < 0) at_start_ = all[0];
   vector[0] = static_cast<double>(all[0]);

@@ -15,20 +15,26 @@ ComputeStyle(hemo/margination,ComputeHemoMargination)
 
 namespace LAMMPS_NS {
 
+class FixHemoFluid;
+
 /// `compute hemo/margination`: carriers in the cell-free layer, Eq. 46
 /// (docs/styles/compute_hemo_margination.md).
 class ComputeHemoMargination : public Compute {
 public:
   ComputeHemoMargination(LAMMPS*, int, char**);
   ~ComputeHemoMargination() override;
-  void init() override {}
+  void init() override;
   void compute_vector() override;
 
 private:
+  /// Where a carrier's atom is: its height, or its distance from the vessel's wall.
+  double height(int i) const;
   std::vector<double> heights() const;
 
   double layer_ = 0;
   hemomag::analysis::LayerWalls walls_ = hemomag::analysis::LayerWalls::lower;
+  bool in_vessel_ = false;  // heights are distances from the wall, of which there is one
+  FixHemoFluid* fluid_ = nullptr;
   long at_start_ = -1;
 };
 

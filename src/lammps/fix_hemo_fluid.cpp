@@ -14,8 +14,11 @@
 #include "update.h"
 #include "utils.h"
 
+#include "io/surface_file.hpp"
 #include "lammps/compat.hpp"
 #include "lammps/fix_hemo_drag.h"
+#include "lattice/surface_vessel.hpp"
+#include "solver/flow_controller.hpp"
 #include "solver/fluid_solver.hpp"
 
 using namespace LAMMPS_NS;
@@ -29,12 +32,26 @@ FixHemoFluid::FixHemoFluid(LAMMPS* lmp, int narg, char** arg)
   global_freq = 1;
   extscalar = extvector = 0;  // totals: not to be divided by the number of atoms
   for (int at = 3; at < narg;) at = parse_keyword(narg, arg, at);
-  if (bgk_)
-    parameters_->relaxation.magic =
-        hemomag::fluid::Relaxation::bgk(parameters_->relaxation.tau).magic;
+  check_scheme();
+  if (driven_axis_ >= 0)
+    controller_ = std::make_unique<hemomag::solver::FlowController>(
+        mean_velocity_, parameters_->relaxation.force[driven_axis_]);
 }
 
 FixHemoFluid::~FixHemoFluid() = default;
+
+/// What tau and the scheme allow is known once both are.
+void FixHemoFluid::check_scheme() {
+  auto& r = parameters_->relaxation;
+  const bool exponential = scheme_ == "exponential";
+  const double least = exponential ? 0.0 : 0.5;
+  if (!(r.tau > least))
+    error->all(FLERR, "fix hemo/fluid: tau = " + std::to_string(r.tau) +
+                          " is unstable, need tau > " + (exponential ? "0" : "0.5") +
+                          " with scheme " + scheme_ + " (raise the viscosity or lower dt)");
+  if (scheme_ == "bgk") r.magic = hemomag::fluid::Relaxation::bgk(r.tau).magic;
+  if (exponential) r.collision = hemomag::fluid::Collision::exponential;
+}
 
 int FixHemoFluid::parse_keyword(int narg, char** arg, int at) {
   const std::string key = arg[at++];
@@ -47,6 +64,12 @@ int FixHemoFluid::parse_keyword(int narg, char** arg, int at) {
     const double x = number(), y = number(), z = number();
     return Vec3{x, y, z};
   };
+  const auto axis = [&] {
+    const std::string name = next();
+    if (name != "x" && name != "y" && name != "z")
+      error->all(FLERR, "fix hemo/fluid: " + key + " " + name + ": the axis must be x, y or z");
+    return name[0] - 'x';
+  };
   const auto expect = [&](const char* word) {
     if (std::string(next()) != word)
       error->all(
@@ -56,15 +79,18 @@ int FixHemoFluid::parse_keyword(int narg, char** arg, int at) {
   auto& p = *parameters_;
   if (key == "tau") {
     p.relaxation.tau = number();
-    if (p.relaxation.tau <= 0.5)
-      error->all(FLERR, "fix hemo/fluid: tau = " + std::to_string(p.relaxation.tau) +
-                            " is unstable, need tau > 0.5 (raise the viscosity or lower dt)");
   } else if (key == "scheme") {
-    const std::string scheme = next();
-    if (scheme != "trt" && scheme != "bgk")
-      error->all(FLERR,
-                 "fix hemo/fluid: scheme " + scheme + " is not available; accepted: trt, bgk");
-    bgk_ = scheme == "bgk";
+    scheme_ = next();
+    if (scheme_ != "trt" && scheme_ != "bgk" && scheme_ != "exponential")
+      error->all(FLERR, "fix hemo/fluid: scheme " + scheme_ +
+                            " is not available; accepted: trt, bgk, exponential");
+  } else if (key == "precision") {
+    const std::string precision = next();
+    if (precision != "double" && precision != "single")
+      error->all(FLERR, "fix hemo/fluid: precision " + precision +
+                            " is unknown; accepted: double, single");
+    p.precision = precision == "single" ? hemomag::solver::Precision::single_
+                                        : hemomag::solver::Precision::double_;
   } else if (key == "magic") {
     p.relaxation.magic = number();
     if (p.relaxation.magic <= 0)
@@ -72,14 +98,38 @@ int FixHemoFluid::parse_keyword(int narg, char** arg, int at) {
   } else if (key == "kernel") {
     hemomag::lammps::or_fail(lmp, FLERR, [&] { p.kernel = hemomag::ibm::delta_kernel(next()); });
   } else if (key == "plates") {
-    const std::string axis = next();
-    if (axis != "x" && axis != "y" && axis != "z")
-      error->all(FLERR, "fix hemo/fluid: plates " + axis + ": the axis must be x, y or z");
-    p.plate_axis = axis[0] - 'x';
+    p.plate_axis = axis();
     expect("lower");
     p.plate_velocity[0] = vector();
     expect("upper");
     p.plate_velocity[1] = vector();
+  } else if (key == "tube") {
+    const int along = axis();
+    Vec3 centre;
+    for (std::size_t d = 0; d < 3; ++d)
+      if (static_cast<int>(d) != along) centre[d] = number();
+    const double radius = number();
+    if (!(radius > 0)) error->all(FLERR, std::string("fix hemo/fluid: tube needs a radius > 0"));
+    p.vessel = std::make_shared<hemomag::lattice::Tube>(along, centre, radius);
+  } else if (key == "surface") {
+    const std::string file = next();
+    const double unit = number();
+    if (!(unit > 0)) error->all(FLERR, std::string("fix hemo/fluid: surface needs a unit > 0"));
+    hemomag::lammps::or_fail(lmp, FLERR, [&] {
+      auto surface = hemomag::io::read_surface(file);
+      for (Vec3& x : surface.points) x = unit * x;
+      p.vessel = std::make_shared<hemomag::lattice::SurfaceVessel>(surface);
+    });
+  } else if (key == "curved") {
+    const std::string rule = next();
+    if (rule != "interpolated" && rule != "halfway")
+      error->all(FLERR,
+                 "fix hemo/fluid: curved " + rule + " is unknown; accepted: interpolated, halfway");
+    p.wall_rule = rule == "halfway" ? hemomag::fluid::WallRule::halfway
+                                    : hemomag::fluid::WallRule::interpolated;
+  } else if (key == "mean_velocity") {
+    driven_axis_ = axis();
+    mean_velocity_ = number();
   } else if (key == "force") {
     const Vec3 g = vector();
     for (std::size_t d = 0; d < 3; ++d) p.relaxation.force[d] = g[d];
@@ -90,7 +140,8 @@ int FixHemoFluid::parse_keyword(int narg, char** arg, int at) {
     initial_ = how == "rest" ? Initial::rest : Initial::linear;
   } else {
     error->all(FLERR, "fix hemo/fluid: unknown keyword " + key +
-                          "; accepted: tau, scheme, magic, kernel, plates, force, initial");
+                          "; accepted: tau, scheme, magic, precision, kernel, plates, tube, "
+                          "surface, curved, force, mean_velocity, initial");
   }
   return at;
 }
@@ -185,7 +236,23 @@ void FixHemoFluid::post_force(int) {
                                     vectors(atom->f));
   if (lost >= 0) lost_point(lost, "spreading its force");
   solver_->step();
+  hold_mean_velocity();
   done_step_ = update->ntimestep;
+}
+
+/// Renew the body force now and then: the sum over all ranks costs more than it can change in a
+/// few steps.
+void FixHemoFluid::hold_mean_velocity() {
+  constexpr int every = 10;
+  if (!controller_ || update->ntimestep % every != 0) return;
+  const auto d = static_cast<std::size_t>(driven_axis_);
+  const double mine[2] = {solver_->total_velocity()[d], solver_->fluid_nodes()};
+  double all[2];
+  MPI_Allreduce(mine, all, 2, MPI_DOUBLE, MPI_SUM, world);
+  const double* start = parameters_->relaxation.force;
+  Vec3 force{start[0], start[1], start[2]};
+  force[d] = controller_->force(all[0] / all[1], every);
+  solver_->set_body_force(force);
 }
 
 void FixHemoFluid::velocity_at_atoms(int bits, double** v) {
@@ -216,7 +283,10 @@ FluidSolver& FixHemoFluid::solver() {
 double FixHemoFluid::viscosity() const { return parameters_->relaxation.viscosity(); }
 
 double FixHemoFluid::point_radius() const {
-  return hemomag::ibm::hydrodynamic_radius(parameters_->kernel, parameters_->relaxation.magic);
+  const auto& r = parameters_->relaxation;
+  return r.collision == hemomag::fluid::Collision::exponential
+             ? hemomag::ibm::exponential_radius(parameters_->kernel, r.tau)
+             : hemomag::ibm::hydrodynamic_radius(parameters_->kernel, r.magic);
 }
 
 double FixHemoFluid::compute_scalar() {

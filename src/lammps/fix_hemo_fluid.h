@@ -8,10 +8,12 @@ FixStyle(hemo/fluid,FixHemoFluid)
 #define LMP_FIX_HEMO_FLUID_H
 
 #include <memory>
+#include <string>
 
 #include "fix.h"
 
 namespace hemomag::solver {
+class FlowController;
 class FluidSolver;
 struct FluidParameters;
 }  // namespace hemomag::solver
@@ -45,13 +47,18 @@ private:
 
   void create_solver();
   int parse_keyword(int narg, char** arg, int at);
+  void check_scheme();
+  void hold_mean_velocity();
   void require_place_in_script() const;
   [[noreturn]] void lost_point(long index, const char* doing) const;
 
   std::unique_ptr<hemomag::solver::FluidParameters> parameters_;
   std::unique_ptr<hemomag::solver::FluidSolver> solver_;
   Initial initial_ = Initial::rest;
-  bool bgk_ = false;  // one relaxation rate: magic follows from tau
+  std::string scheme_ = "trt";
+  int driven_axis_ = -1;  // whose mean velocity is held
+  double mean_velocity_ = 0;
+  std::unique_ptr<hemomag::solver::FlowController> controller_;
   int one_way_bits_ = 0;  // groups whose forces the fluid does not feel
   bigint done_step_ = -1;
 };

@@ -103,7 +103,7 @@ void FixHemoWatch::check_mach() {
   if (mach > mach_limit_)
     violation("the fluid's Mach number is " + std::to_string(mach) + ", the limit is " +
               std::to_string(mach_limit_) +
-              " (plates too fast, or forces too strong for the time step)");
+              " (flow too fast, or forces too strong, for the time step)");
 }
 
 bigint FixHemoWatch::count(int bits) const {
@@ -129,7 +129,7 @@ void FixHemoWatch::check_counts(bool first) {
   record_.cells_end = cells;
   if (carriers != record_.carriers_start)
     violation("there are " + std::to_string(carriers) + " carriers, the run began with " +
-              std::to_string(record_.carriers_start) + " (they left through a plate)");
+              std::to_string(record_.carriers_start) + " (they left through a wall)");
   if (cells != record_.cells_start || cell_atoms != cell_atoms_)
     violation("there are " + std::to_string(cells) + " cells of " + std::to_string(cell_atoms) +
               " vertices, the run began with " + std::to_string(record_.cells_start) + " of " +

@@ -15,6 +15,7 @@
 #include "lammps/fix_hemo_progress.h"
 #include "lammps/fix_hemo_series.h"
 #include "lammps/fix_hemo_snapshot.h"
+#include "lammps/fix_hemo_wall.h"
 #include "lammps/fix_hemo_watch.h"
 #include "lammps/pair_hemo_contact.h"
 #include "lammps/pair_hemo_dipole.h"
@@ -50,6 +51,7 @@ void register_styles(LAMMPS_NS::LAMMPS& lmp) {
   fixes["hemo/progress"] = new_fix<LAMMPS_NS::FixHemoProgress>;
   fixes["hemo/series"] = new_fix<LAMMPS_NS::FixHemoSeries>;
   fixes["hemo/snapshot"] = new_fix<LAMMPS_NS::FixHemoSnapshot>;
+  fixes["hemo/wall"] = new_fix<LAMMPS_NS::FixHemoWall>;
   fixes["hemo/watch"] = new_fix<LAMMPS_NS::FixHemoWatch>;
   computes["hemo/margination"] = new_compute<LAMMPS_NS::ComputeHemoMargination>;
   pairs["hemo/contact"] = new_force<LAMMPS_NS::Pair, LAMMPS_NS::PairHemoContact>;

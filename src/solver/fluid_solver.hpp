@@ -23,9 +23,9 @@ struct FluidParameters {
   fluid::Relaxation relaxation{1.0, 3.0 / 16};
   Precision precision = Precision::double_;
   ibm::DeltaKernel kernel = ibm::DeltaKernel::cosine4;
-  int plate_axis = -1;                   ///< 0, 1, 2, or -1: no plates
-  std::array<Vec3, 2> plate_velocity{};  ///< low, high
-  std::shared_ptr<const lattice::Vessel> vessel;  ///< excludes plates; null: none
+  int plate_axis = -1;                                        ///< 0, 1, 2, or -1: no plates
+  std::array<Vec3, 2> plate_velocity{};                       ///< low, high
+  std::shared_ptr<const lattice::Vessel> vessel;              ///< excludes plates; null: none
   fluid::WallRule wall_rule = fluid::WallRule::interpolated;  ///< of the vessel
   double reach_beyond_block = 0;  ///< how far a rank's points may lie outside its block, in nodes
 };

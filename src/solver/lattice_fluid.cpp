@@ -25,8 +25,7 @@ template <std::size_t n, class Real>
 std::array<Real*, n> fields_in(AlignedArray<Real>& storage, const lattice::NodeLayout& layout,
                                std::size_t apart, std::size_t first = 0) {
   std::array<Real*, n> at{};
-  for (std::size_t k = 0; k < n; ++k)
-    at[k] = storage.data() + (first + k) * apart + layout.origin;
+  for (std::size_t k = 0; k < n; ++k) at[k] = storage.data() + (first + k) * apart + layout.origin;
   return at;
 }
 
@@ -113,8 +112,8 @@ void LatticeFluid<Real>::initialise(const std::function<Flow(const Vec3&)>& fiel
         const std::ptrdiff_t node = n_layout_.index(x, y, z), at = f_layout_.index(x, y, z);
         Flow flow;
         if (wet(node))
-          flow = field({block().begin[0] + x + 0.5, block().begin[1] + y + 0.5,
-                        block().begin[2] + z + 0.5});
+          flow = field(
+              {block().begin[0] + x + 0.5, block().begin[1] + y + 0.5, block().begin[2] + z + 0.5});
         const auto& [u, grad_u] = flow;
         const auto g = fluid::populations(1.0, u, grad_u, parameters_.relaxation.tau);
         for (std::size_t i = 0; i < 19; ++i) f_[i][at] = static_cast<Real>(g[i]);
@@ -140,8 +139,7 @@ template <class Real> void LatticeFluid<Real>::start_exponential() {
         const auto& c = d3q19::e[static_cast<std::size_t>(i)];
         const std::ptrdiff_t ahead = at + f_layout_.index(c[0], c[1], c[2]);
         f_[static_cast<std::size_t>(i)][at] -=
-            static_cast<Real>(rates.D - 2 * rates.K) *
-                fluid::source_population(last_, at, i, tau) +
+            static_cast<Real>(rates.D - 2 * rates.K) * fluid::source_population(last_, at, i, tau) +
             static_cast<Real>(rates.K) * fluid::source_population(last_, ahead, i, tau);
       }
   });
@@ -228,9 +226,8 @@ template <class Real> void LatticeFluid<Real>::clear_force_halo() {
     const Faces at = faces(axis, n_layout_.halo);
     for (const NodeBox& ghost : {at.ghost_low, at.ghost_high})
       for (Real* component : force_)
-        for_each_row(ghost, n_layout_, [&](std::ptrdiff_t row, int n) {
-          std::fill_n(component + row, n, Real(0));
-        });
+        for_each_row(ghost, n_layout_,
+                     [&](std::ptrdiff_t row, int n) { std::fill_n(component + row, n, Real(0)); });
   }
 }
 
@@ -263,8 +260,7 @@ template <class Real> void LatticeFluid<Real>::exchange_moments(int first_axis) 
 }
 
 /// The populations that cross a face normal to the axis in one sense.
-template <class Real>
-std::array<Real*, 5> LatticeFluid<Real>::crossing(int axis, int sense) const {
+template <class Real> std::array<Real*, 5> LatticeFluid<Real>::crossing(int axis, int sense) const {
   std::array<Real*, 5> crossing{};
   const auto directions = d3q19::crossing(axis, sense);
   for (std::size_t k = 0; k < 5; ++k) crossing[k] = f_[static_cast<std::size_t>(directions[k])];
@@ -452,10 +448,9 @@ void LatticeFluid<Real>::for_each_population(Visit visit) {
         std::array<double, 19> g;
         for (std::size_t i = 0; i < 19; ++i) {
           const auto& c = d3q19::e[i];
-          g[i] = static_cast<double>(
-              shifted ? f_[static_cast<std::size_t>(d3q19::opposite[i])]
-                          [f_layout_.index(x - c[0], y - c[1], z - c[2])]
-                      : f_[i][f_layout_.index(x, y, z)]);
+          g[i] = static_cast<double>(shifted ? f_[static_cast<std::size_t>(d3q19::opposite[i])]
+                                                 [f_layout_.index(x - c[0], y - c[1], z - c[2])]
+                                             : f_[i][f_layout_.index(x, y, z)]);
         }
         visit(node, g);
       }
@@ -545,8 +540,7 @@ template <class Real> Vec3 LatticeFluid<Real>::momentum() {
   else
     for_each_population([&](std::size_t, const std::array<double, 19>& g) {
       for (std::size_t i = 0; i < 19; ++i)
-        j += g[i] *
-             Vec3{double(d3q19::e[i][0]), double(d3q19::e[i][1]), double(d3q19::e[i][2])};
+        j += g[i] * Vec3{double(d3q19::e[i][0]), double(d3q19::e[i][1]), double(d3q19::e[i][2])};
     });
   return j;
 }

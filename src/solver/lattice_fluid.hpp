@@ -66,8 +66,7 @@ private:
   std::array<Vec3, 2> bounce_before_shift();
   std::array<Vec3, 2> bounce_after_shift();
   std::array<Vec3, 2> reflect_source(int sense);
-  void book_wall_momentum(const std::array<Vec3, 2>& bounced,
-                          const std::array<Vec3, 2>& reflected);
+  void book_wall_momentum(const std::array<Vec3, 2>& bounced, const std::array<Vec3, 2>& reflected);
   void plan_interior(bool shift);
   void sweep(const NodeBox& box);
   void sweep_shell();

@@ -157,18 +157,120 @@ TEST_F(BadInput, Contradictions) {
 }
 
 TEST_F(BadInput, FeaturesOfLaterVersions) {
-  refused(changed("dx = \"0.5 um\"", "dx = \"0.5 um\"\nscheme = \"exponential\""),
-          "case.toml:9:10: numerics.scheme:", "not available in this version");
-  refused(changed("dx = \"0.5 um\"", "dx = \"0.5 um\"\nprecision = \"single\""),
-          "case.toml:9:13: numerics.precision:", "not available");
   refused(changed("B0 = \"0.05 T\"", "field = \"rotating\""),
           "case.toml:13:9: magnetic.field:", "not available");
-  refused(changed("shear_rate", "boundary = \"tube\"\nshear_rate"),
-          "case.toml:4:12: channel.boundary:", "not available");
+  refused(changed("[[carrier]]", "[[cell]]\nkind = \"platelet\"\n[[carrier]]"),
+          "case.toml:10:8: cell.kind:", "not available");
   refused(changed("[run]", "[analysis]\nlayer = \"measured\"\n[run]"),
           "case.toml:15:9: analysis.layer:", "not available");
   refused(changed("[[carrier]]", "[[cell]]\nplacement = \"compress\"\n[[carrier]]"),
           "case.toml:10:13: cell.placement:", "not available");
+}
+
+/// `good` with other lines in place of its shear rate, and no default gradient.
+std::string channel_with(const std::string& lines) {
+  std::string text = good;
+  for (const auto& [from, to] :
+       {std::pair<std::string, std::string>{"shear_rate = \"200 s-1\"\n", lines},
+        {"B0 = \"0.05 T\"", "field = \"none\""}}) {
+    const auto at = text.find(from);
+    text.replace(at, from.size(), to);
+  }
+  return text;
+}
+
+const std::string tube = "boundary = \"tube\"\ndiameter = \"7 um\"\nmean_velocity = \"1 mm/s\"\n";
+
+TEST_F(BadInput, Tubes) {
+  const auto with = [](const std::string& lines) { return channel_with(tube + lines); };
+  refused(channel_with("boundary = \"tube\"\n"), "case.toml:2:1: channel.diameter:", "is missing");
+  refused(channel_with("boundary = \"tube\"\ndiameter = \"7.5 um\"\nmean_velocity = \"1 mm/s\"\n"),
+          "case.toml:5:12: channel.diameter:", "at most 7 um");
+  refused(channel_with("boundary = \"tube\"\ndiameter = \"0 um\"\n"),
+          "case.toml:5:12: channel.diameter:", "out of range");
+  refused(with("axis = \"w\"\n"), "case.toml:7:8: channel.axis:", "\"x\", \"y\", \"z\"");
+  refused(with("plates = \"symmetric\"\n"), "case.toml:7:10: channel.plates:", "leave it out");
+  refused(with("geometry = \"a.stl\"\n"), "case.toml:7:12: channel.geometry:", "voxels");
+  refused(with("geometry_unit = \"1 mm\"\n"), "case.toml:7:17: channel.geometry_unit:", "voxels");
+  refused(channel_with("boundary = \"tube\"\ndiameter = \"7 um\"\nshear_rate = \"200 s-1\"\n"),
+          "case.toml:6:14: channel.shear_rate:", "plates");
+  refused(channel_with("boundary = \"tube\"\ndiameter = \"7 um\"\n"),
+          "case.toml:8:1: numerics.dt:", "mean_velocity");
+  refused(channel_with("boundary = \"tube\"\ndiameter = \"7 um\"\n"),
+          "--set numerics.cell_reynolds:", "means nothing", "--set numerics.cell_reynolds=0.5");
+  refused(with(""), "--set analysis.walls:", "\"vessel\"", "--set analysis.walls=lower");
+  refused(with(""), "--set analysis.walls:", "\"vessel\"", "--set analysis.walls=both");
+  refused(with(""), "--set analysis.layer:", "half its width", "--set 'analysis.layer=3.5 um'");
+  refused(with(""), "case.toml:14:1: magnetic.gradient:", "without plates",
+          "--set magnetic.field=gradient");
+  refused(with(""), "--set channel.size:", "whole multiple of dx",
+          "--set 'channel.size=[\"8 um\", \"8.2 um\", \"8 um\"]'");
+  refused(with("[[cell]]\nvertices = 642\ncount = 2\nplacement = \"grid\"\n"),
+          "case.toml:10:13: cell.placement:", "of 2 cells");
+}
+
+TEST_F(BadInput, KeysOfVesselsElsewhere) {
+  const std::string plates = "shear_rate = \"200 s-1\"\n";
+  refused(channel_with(plates + "axis = \"x\"\n"), "case.toml:5:8: channel.axis:", "along y");
+  refused(channel_with(plates + "diameter = \"7 um\"\n"),
+          "case.toml:5:12: channel.diameter:", "tube");
+  refused(channel_with(plates + "geometry = \"a.stl\"\n"),
+          "case.toml:5:12: channel.geometry:", "voxels");
+  refused(channel_with(plates), "--set analysis.walls:", "\"lower\", \"both\"",
+          "--set analysis.walls=vessel");
+}
+
+TEST_F(BadInput, MeanVelocities) {
+  const std::string mean = "mean_velocity = \"1 mm/s\"\n";
+  refused(channel_with(mean + "shear_rate = \"200 s-1\"\n"),
+          "case.toml:4:17: channel.mean_velocity:", "excludes shear_rate");
+  refused(channel_with(mean + "body_force = \"2e4 N/m3\"\n"),
+          "case.toml:4:17: channel.mean_velocity:", "excludes body_force");
+  refused(channel_with(mean + "boundary = \"periodic\"\n"),
+          "case.toml:4:17: channel.mean_velocity:", "walls");
+  refused(channel_with("mean_velocity = \"1 mm\"\n"),
+          "case.toml:4:17: channel.mean_velocity:", "is not a velocity");
+  refused(channel_with("mean_velocity = \"0 mm/s\"\n"),
+          "case.toml:4:17: channel.mean_velocity:", "out of range");
+}
+
+TEST_F(BadInput, NumbersOfTheSchemes) {
+  const auto with = [](const std::string& line) {
+    return changed("dx = \"0.5 um\"", "dx = \"0.5 um\"\n" + line);
+  };
+  refused(with("tau = 0.3"), "case.toml:9:7: numerics.tau:", "exponential");
+  refused(with("scheme = \"exponential\"\ntau = 0.04"),
+          "case.toml:10:7: numerics.tau:", "at least 0.05");
+  refused(with("scheme = \"mrt\""), "case.toml:9:10: numerics.scheme:", "\"exponential\"");
+  refused(with("precision = \"half\""), "case.toml:9:13: numerics.precision:", "\"single\"");
+  refused(with("kernel = \"roma4\""), "case.toml:9:10: numerics.kernel:", "\"roma3\"");
+}
+
+TEST_F(BadInput, Surfaces) {
+  const auto with = [&](const std::string& lines) {
+    return channel_with("boundary = \"voxels\"\nmean_velocity = \"1 mm/s\"\n" + lines);
+  };
+  const auto surface = [&](const std::string& points, const std::string& triangles) {
+    std::ofstream(directory_ / "wall.off") << points << triangles;
+  };
+  const std::string file = "geometry = \"wall.off\"\n";
+  const std::string tetrahedron = "OFF\n4 4 0\n1 1 1\n7 1 1\n1 7 1\n1 1 7\n";
+  const std::string faces = "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+  refused(with(""), "case.toml:2:1: channel.geometry:", "is missing");
+  refused(with("geometry = 3\n"), "case.toml:6:12: channel.geometry:", "a string");
+  refused(with(file), "case.toml:6:12: channel.geometry:", "wall.off");
+  surface("OFF\nfour\n", "");
+  refused(with(file), "case.toml:6:12: channel.geometry:", "wall.off");
+  surface("OFF\n4 3 0\n1 1 1\n7 1 1\n1 7 1\n1 1 7\n", "3 0 2 1\n3 0 1 3\n3 0 3 2\n");
+  refused(with(file), "case.toml:6:12: channel.geometry:", "wall.off");
+  surface(tetrahedron, faces);
+  refused(with(file + "geometry_unit = \"1 nm\"\n"),
+          "case.toml:6:12: channel.geometry:", "no node");
+  refused(with(file + "geometry_unit = \"1\"\n"),
+          "case.toml:7:17: channel.geometry_unit:", "has no unit");
+  refused(with(file + "diameter = \"5 um\"\n"), "case.toml:7:12: channel.diameter:", "tube");
+  // A closed vessel has no way through along which a mean velocity could be held.
+  refused(with(file), "case.toml:2:1: channel: open ends", "along y");
 }
 
 TEST_F(BadInput, Overrides) {

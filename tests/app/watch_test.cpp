@@ -83,6 +83,15 @@ TEST(Fluid, RefusesWhatItCannotDo) {
   };
   expect_words(with({"fix fluid all hemo/fluid tau 0.5"}), {"tau = 0.5", "need tau > 0.5"});
   expect_words(with({"fix fluid all hemo/fluid tua 1"}), {"unknown keyword tua", "accepted: tau"});
+  expect_words(with({"fix fluid all hemo/fluid tau 1 scheme mrt"}),
+               {"mrt", "accepted: trt, bgk, exponential"});
+  expect_words(with({"fix fluid all hemo/fluid tau 1 precision half"}),
+               {"half", "accepted: double, single"});
+  expect_words(with({"fix fluid all hemo/fluid tau 1 curved smooth"}),
+               {"smooth", "accepted: interpolated, halfway"});
+  expect_words(with({"fix fluid all hemo/fluid tau 1 plates z lower 0 0 0 upper 0 0 0 tube y 6 6 5",
+                     "run 1"}),
+               {"plates and a vessel exclude each other"});
   expect_words(with({"fix fluid all hemo/fluid tau 1", "run 1"}),
                {"axis z has no plates and must be periodic"});
   expect_words(with({"fix fluid all hemo/fluid tau 1 kernel box3"}),

@@ -5,6 +5,8 @@
 
 #include "contact/lennard_jones.hpp"
 #include "contact/morse.hpp"
+#include "contact/wall.hpp"
+#include "lattice/vessel.hpp"
 #include "magnetic/dipole.hpp"
 #include "magnetic/moment.hpp"
 #include "support/gradient.hpp"
@@ -139,6 +141,51 @@ TEST(Contact, ForcesAreMinusTheEnergyGradient) {
   EXPECT_NEAR(contact::energy(lj, cut * cut), 0, 1e-15) << "shifted to zero at the cut";
   EXPECT_NEAR(contact::force_over_r(lj, cut * cut), 0, 1e-13);
   EXPECT_NEAR(contact::energy(morse, morse.r0), -morse.depth, 1e-15);
+}
+
+TEST(WallRepulsion, ForceIsMinusTheEnergySlope) {
+  const contact::WallRepulsion purely{0.02, 0.5, 0.5 * contact::lj_cutoff_over_sigma};
+  const contact::WallRepulsion with_well{0.3, 0.7, 1.9};
+  for (const auto& wall : {purely, with_well})
+    for (double d = 0.4 * wall.sigma; d < 0.99 * wall.cutoff; d += 0.01 * wall.cutoff) {
+      const double slope =
+          test::slope_at_zero(0.5 * d, [&](double h) { return contact::energy(wall, d + h); });
+      EXPECT_NEAR(contact::force(wall, d), -slope, gradient_tolerance * (1 + std::fabs(slope)));
+    }
+}
+
+TEST(WallRepulsion, IsThatOfAPairAtTheSameDistanceAndVanishesAtItsCut) {
+  const contact::LennardJones pair{0.02, 0.5};
+  const contact::WallRepulsion wall{0.02, 0.5, 0.5 * contact::lj_cutoff_over_sigma};
+  for (double d = 0.2; d < wall.cutoff; d += 0.01) {
+    const double scale = 1 + contact::energy(pair, d * d) + contact::force_over_r(pair, d * d);
+    EXPECT_NEAR(contact::energy(wall, d), contact::energy(pair, d * d), 1e-13 * scale);
+    EXPECT_NEAR(contact::force(wall, d), d * contact::force_over_r(pair, d * d), 1e-13 * scale);
+  }
+  const contact::WallRepulsion with_well{0.3, 0.7, 1.9};
+  EXPECT_NEAR(contact::energy(with_well, 1.9 * (1 - 1e-15)), 0, 1e-14) << "shifted to zero";
+  EXPECT_EQ(contact::energy(with_well, 1.9), 0);
+  EXPECT_EQ(contact::force(with_well, 2.5), 0);
+  // sigma/d = 1: 4 eps (1 - 1) less the value at the cut, and 24 eps/sigma.
+  const double c6 = std::pow(0.7 / 1.9, 6);
+  EXPECT_NEAR(contact::energy(with_well, 0.7), 4 * 0.3 * (c6 - c6 * c6), 1e-15);
+  EXPECT_NEAR(contact::force(with_well, 0.7), 24 * 0.3 / 0.7, 1e-14);
+}
+
+TEST(WallRepulsion, InATubePushesTowardsItsAxisByTheEnergyGradient) {
+  const lattice::Tube tube(1, {5, 0, 6}, 4);
+  const contact::WallRepulsion wall{0.02, 1, contact::lj_cutoff_over_sigma};
+  Random random(11);
+  for (int k = 0; k < 500; ++k) {
+    const double r = random.uniform(3.0, 3.5), phi = random.uniform(0, 2 * std::numbers::pi);
+    const Vec3 out{std::cos(phi), 0, std::sin(phi)};
+    const std::vector<Vec3> x{Vec3{5, random.uniform(-9, 9), 6} + r * out};
+    const Vec3 F = -contact::force(wall, tube.distance(x[0])) * out;
+    EXPECT_LT(test::gradient_error(
+                  x, std::vector<Vec3>{F}, 0.25,
+                  [&](const auto& y) { return contact::energy(wall, tube.distance(y[0])); }),
+              gradient_tolerance);
+  }
 }
 
 }  // namespace

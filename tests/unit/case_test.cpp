@@ -1,15 +1,21 @@
-// Units, the table of keys and its reference page, lattice units and the card.
+// Units, the table of keys and its reference page, lattice units, vessels and the card.
+#include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "case/card.hpp"
 #include "case/case_file.hpp"
 #include "case/keys.hpp"
 #include "case/lattice_units.hpp"
+#include "case/placement.hpp"
+#include "case/script.hpp"
 #include "case/units.hpp"
+#include "case/vessel.hpp"
 
 namespace {
 
@@ -149,8 +155,186 @@ TEST(Card, RefusesCarriersLargerThanTheKernel) {
   EXPECT_FALSE(make_card(c, {}).refused());
 }
 
+TEST(LatticeUnits, TheExponentialSchemeHasItsOwnViscosity) {
+  // nu = tau/3 instead of (tau - 1/2)/3: tau 1/2 stands for tau 1 of trt, and 0.05 is allowed.
+  Case c = coarse();
+  const double standard = lattice_units(c).dt;
+  c.numerics.scheme = "exponential";
+  c.numerics.tau = 0.5;
+  EXPECT_DOUBLE_EQ(lattice_units(c).dt, standard);
+  c.numerics.tau = 0.05;
+  EXPECT_NEAR(lattice_units(c).dt, 0.1 * standard, 1e-12 * standard);
+}
+
+TEST(LatticeUnits, ExponentialTauIsJudgedByItsOwnAccuracy) {
+  Case c = coarse();
+  c.numerics.scheme = "exponential";
+  for (const auto& [tau, verdict] : {std::pair{0.1, Verdict::doubtful},
+                                     {0.3, Verdict::fine},
+                                     {1.0, Verdict::fine},
+                                     {1.4, Verdict::doubtful}}) {
+    c.numerics.tau = tau;
+    EXPECT_EQ(line(make_card(c, {}), "tau").verdict, verdict) << tau;
+  }
+}
+
+/// A tube of 20 um along y, plasma at 1 mm/s in the mean.
+Case tube() {
+  Case c = coarse();
+  c.channel.size = {22e-6, 30e-6, 24e-6};
+  c.channel.boundary = Boundary::tube;
+  c.channel.diameter = 20e-6;
+  c.channel.shear_rate = 0;
+  c.channel.mean_velocity = 1e-3;
+  c.vessel = make_vessel(c);
+  return c;
+}
+
+TEST(Tube, CellReynoldsUsesThePseudoShearRate) {
+  Case c = tube();
+  // Re = rho (u/D) R^2/mu
+  EXPECT_NEAR(lattice_units(c).density * 50 * 3.91e-6 * 3.91e-6 / 1.2e-3, 0.5, 1e-12);
+  c.channel.boundary = Boundary::plates;  // then the height, 24 um
+  EXPECT_NEAR(lattice_units(c).density * (1e-3 / 24e-6) * 3.91e-6 * 3.91e-6 / 1.2e-3, 0.5, 1e-12);
+}
+
+TEST(Tube, HematocritIsOfTheTubesVolume) {
+  Case c = tube();
+  c.cells.emplace_back();
+  c.cells[0].vertices = 642;
+  c.cells[0].hematocrit = 0.2;
+  const auto models = cell_models(c);
+  const double volume = 3.14159265358979 * 100e-12 * 30e-6;
+  EXPECT_NEAR(fluid_volume(c), volume, 1e-10 * volume);
+  EXPECT_EQ(cell_count(c, c.cells[0], models[0]),
+            static_cast<int>(std::lround(0.2 * volume / models[0].volume)));
+  const double made = cell_count(c, c.cells[0], models[0]) * models[0].volume / volume;
+  char text[64];
+  std::snprintf(text, sizeof text, "hematocrit %.4g", made);
+  EXPECT_NE(line(make_card(c, models), "cells").value.find(text), std::string::npos);
+}
+
+TEST(Tube, FlowIsEstimatedByPoiseuille) {
+  Case c = tube();
+  EXPECT_NEAR(fastest_flow(c), 2e-3, 1e-15) << "twice the mean";
+  const double g = starting_force(c);
+  EXPECT_NEAR(g, 8 * 1.2e-3 * 1e-3 / 1e-10, 1e-6) << "8 mu u/R^2";
+  c.channel.mean_velocity.reset();
+  c.channel.body_force[1] = g;
+  EXPECT_NEAR(fastest_flow(c), 2e-3, 1e-15) << "g R^2/(4 mu)";
+  c = tube();
+  c.channel.boundary = Boundary::plates;
+  EXPECT_NEAR(fastest_flow(c), 1.5e-3, 1e-15) << "3/2 of the mean between plates";
+}
+
+TEST(Tube, SinglePrecisionAndTheExponentialSchemeChangeTheCost) {
+  Case c = tube();
+  const auto megabytes = [&] {
+    return std::stod(line(make_card(c, {}), "memory").value.substr(6));
+  };
+  const double nodes = 44. * 60 * 48 / 1e6;
+  EXPECT_NEAR(megabytes(), 210 * nodes, 1);
+  c.numerics.precision = "single";
+  EXPECT_NEAR(megabytes(), 134 * nodes, 1);
+  c.numerics.scheme = "exponential";
+  EXPECT_NEAR(megabytes(), 210 * nodes, 1);
+}
+
+bool has(const std::string& script, const std::string& part) {
+  return script.find(part) != std::string::npos;
+}
+
+TEST(Tube, ScriptNamesVesselWallAndMeanVelocity) {
+  Case c = tube();
+  c.numerics.precision = "single";
+  c.numerics.kernel = "roma3";
+  c.carriers.emplace_back();
+  c.carriers[0].count = 1;
+  c.carriers[0].radius = 125e-9;
+  c.analysis.walls = LayerWalls::vessel;
+  const std::string script = lammps_script(c, place(c));
+  EXPECT_TRUE(has(script, "boundary p p p\n")) << script;
+  EXPECT_TRUE(has(script, "kernel roma3 precision single tube y 22 24 20 mean_velocity y "));
+  EXPECT_TRUE(has(script, " walls vessel\n"));
+  EXPECT_FALSE(has(script, "wall/lj126"));
+  EXPECT_LT(script.find("fix walls all hemo/wall "), script.find("fix fluid all hemo/fluid"));
+  c.channel.axis = 2;
+  EXPECT_TRUE(has(lammps_script(c, place(c)), "tube z 22 30 20 mean_velocity z "));
+}
+
+/// Surface files in a directory of their own. A frustum along y around (cx, cz) = (5, 5), square
+/// with half sides h0 and h1 at y0 and y1, in the units of the file.
+class Voxels : public testing::Test {
+protected:
+  void SetUp() override {
+    directory_ =
+        std::filesystem::temp_directory_path() / ("hemomag_voxels_" + std::to_string(getpid()));
+    std::filesystem::create_directories(directory_);
+  }
+  void TearDown() override { std::filesystem::remove_all(directory_); }
+
+  Case frustum(double y0, double h0, double y1, double h1) const {
+    const auto path = directory_ / "frustum.off";
+    {
+      std::ofstream file(path);
+      file << "OFF\n8 12 0\n";
+      for (const auto& [y, h] : {std::pair{y0, h0}, {y1, h1}})
+        file << 5 - h << " " << y << " " << 5 - h << "\n"
+             << 5 + h << " " << y << " " << 5 - h << "\n"
+             << 5 + h << " " << y << " " << 5 + h << "\n"
+             << 5 - h << " " << y << " " << 5 + h << "\n";
+      for (const char* t : {"0 1 2", "0 2 3", "4 6 5", "4 7 6", "0 5 1", "0 4 5", "1 6 2", "1 5 6",
+                            "2 7 3", "2 6 7", "3 4 0", "3 7 4"})
+        file << "3 " << t << "\n";
+    }
+    Case c = coarse();
+    c.channel.size = {10e-6, 8e-6, 10e-6};
+    c.channel.shear_rate = 0;
+    c.channel.boundary = Boundary::voxels;
+    c.channel.geometry = path.string();
+    c.channel.geometry_unit = 1e-6;
+    c.channel.mean_velocity = 1e-3;
+    c.vessel = make_vessel(c);
+    return c;
+  }
+
+  std::filesystem::path directory_;
+};
+
+TEST_F(Voxels, ADuctHoldsTheNodesInsideAndMatchesAtBothEnds) {
+  const Case c = frustum(-3, 3.1, 11, 3.1);  // 6.2 um wide in a box of 10 um: 12 nodes of 0.5 um
+  EXPECT_EQ(c.vessel.fluid_nodes, 12 * 12 * 16);
+  EXPECT_NEAR(fluid_volume(c), 12 * 12 * 16 * 0.125e-18, 1e-27);
+  EXPECT_EQ(c.vessel.open, (std::array<long, 3>{0, 144, 0}));
+  EXPECT_EQ(c.vessel.unmatched, (std::array<long, 3>{0, 0, 0}));
+  EXPECT_GE(c.vessel.widest, 2. / 3 * 5.7) << "of the middle nodes, 6.2 - 0.5";
+  EXPECT_LE(c.vessel.widest, 5.7 + 1e-9);
+  EXPECT_EQ(line(make_card(c, {}), "open ends").verdict, Verdict::fine);
+  EXPECT_NEAR(wall_distance(c, {5e-6, 4e-6, 5e-6}), 3.1e-6, 1e-15);
+  EXPECT_NEAR(wall_distance(c, {5e-6, 20e-6, 5e-6}), 3.1e-6, 1e-15) << "a period further";
+  const std::string script = lammps_script(c, place(c));
+  EXPECT_TRUE(has(script, " surface geometry.off 2 mean_velocity y ")) << script;
+}
+
+TEST_F(Voxels, EndsThatDifferAreDoubtfulAndClosedOnesCannotBeDriven) {
+  const Case wider = frustum(-2, 1.1, 10, 3.1);  // half sides 1.434 and 2.767 at the faces
+  // At the faces' nodes (y = 0.25 and 7.75) the half sides are 1.475 and 2.725 um.
+  EXPECT_EQ(wider.vessel.open[1], 6 * 6);
+  EXPECT_EQ(wider.vessel.unmatched[1], 10 * 10 - 6 * 6);
+  const CardLine ends = line(make_card(wider, {}), "open ends");
+  EXPECT_EQ(ends.verdict, Verdict::doubtful);
+  EXPECT_NE(ends.advice.find("64 fluid nodes"), std::string::npos) << ends.advice;
+  const Case closed = frustum(1, 3, 7, 3);
+  EXPECT_EQ(closed.vessel.open, (std::array<long, 3>{0, 0, 0}));
+  EXPECT_EQ(line(make_card(closed, {}), "open ends").verdict, Verdict::refused);
+}
+
+TEST_F(Voxels, ASurfaceOutsideTheBoxIsRefused) {
+  EXPECT_THROW(frustum(20, 3, 27, 3), hemomag::Error);
+}
+
 TEST(Examples, AreAcceptedAndNotRefused) {
-  for (const char* name : {"margination_demo", "one_way_drift"}) {
+  for (const char* name : {"margination_demo", "one_way_drift", "tube_flow"}) {
     const Case c = read_case(std::string(HEMOMAG_SOURCE_DIR "/examples/") + name + ".toml", {});
     EXPECT_FALSE(make_card(c, cell_models(c)).refused()) << name;
   }

@@ -1,11 +1,15 @@
 // The starting state: how many, how far apart, and carriers outside cells.
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "analysis/inside.hpp"
 #include "case/case_file.hpp"
 #include "case/placement.hpp"
+#include "case/vessel.hpp"
 
 namespace {
 
@@ -93,6 +97,93 @@ TEST(Placement, WormsAreStraightChainsOutsideCells) {
       for (const auto& cell : system.cells)
         for (const Vec3& x : cell.x) EXPECT_GE(norm(nearest(x - p, c)), 0.56e-6);
   }
+}
+
+/// The tube of examples/tube_flow.toml with more in it.
+TEST(Placement, InATubeCellsAndCarriersKeepTheirGapFromTheWall) {
+  for (const char* axis : {"x", "y", "z"}) {
+    // 18 um fit into either cross-section of 20 by 22 and 22 um.
+    const auto c = case_::read_case(HEMOMAG_SOURCE_DIR "/examples/tube_flow.toml",
+                                    {std::string("channel.axis=") + axis, "channel.diameter=18 um",
+                                     "cell.count=8", "carrier.count=200"});
+    const auto system = case_::place(c);
+    ASSERT_EQ(system.cells.size(), 8u);
+    ASSERT_EQ(system.carriers.size(), 200u);
+    const auto radius = [&](Vec3 x) {
+      x -= 0.5 * Vec3{c.channel.size[0], c.channel.size[1], c.channel.size[2]};
+      x[static_cast<std::size_t>(axis[0] - 'x')] = 0;
+      return norm(x);
+    };
+    double cell = 0, carrier = 0, closest = 1;
+    for (const auto& a : system.cells) {
+      for (const Vec3& x : a.x) cell = std::max(cell, radius(x));
+      for (const auto& p : system.carriers)
+        for (const Vec3& x : a.x) {
+          Vec3 d = x - p.beads[0];
+          for (std::size_t k = 0; k < 3; ++k)
+            d[k] -= c.channel.size[k] * std::round(d[k] / c.channel.size[k]);
+          closest = std::min(closest, norm(d));
+        }
+    }
+    for (const auto& p : system.carriers) carrier = std::max(carrier, radius(p.beads[0]));
+    EXPECT_LE(cell, 9e-6 - 0.3e-6);
+    EXPECT_LE(carrier, 9e-6 - 0.25e-6);
+    EXPECT_GT(carrier, 8e-6) << "carriers are found in the whole tube";
+    EXPECT_GE(closest, 0.56e-6);
+  }
+}
+
+TEST(Placement, AGridInATubeTakesOnlyThePlacesThatFit) {
+  // Flat cells of 7.82 um have 2 x 3 x 7 places in a box of 22 x 25 x 22 um. Their centres stand
+  // 5.5 um beside the axis, so that only those of the middle layer lie inside a tube of 20 um.
+  const auto with = [](int count) {
+    return case_::place(
+        case_::read_case(HEMOMAG_SOURCE_DIR "/examples/tube_flow.toml",
+                         {"channel.size=[\"22 um\", \"25 um\", \"22 um\"]", "cell.placement=grid",
+                          "cell.count=" + std::to_string(count)}));
+  };
+  const auto system = with(6);
+  ASSERT_EQ(system.cells.size(), 6u);
+  for (const auto& cell : system.cells)
+    for (const Vec3& x : cell.x) EXPECT_LE(std::hypot(x.x - 11e-6, x.z - 11e-6), 10e-6 - 0.3e-6);
+  EXPECT_THROW(with(7), Error) << "more than fit into the tube";
+  EXPECT_THROW(with(43), Error) << "more than the box has places";
+}
+
+TEST(Placement, InVoxelsCellsLieAcrossTheOpenEnds) {
+  // A square duct of 10.4 um along y that sticks out of a box of 12 x 9 x 12 um at both ends.
+  const auto path = std::filesystem::temp_directory_path() /
+                    ("hemomag_duct_" + std::to_string(getpid()) + ".off");
+  std::ofstream(path) << "OFF\n8 12 0\n"
+                         "0.8 -5 0.8\n11.2 -5 0.8\n11.2 -5 11.2\n0.8 -5 11.2\n"
+                         "0.8 14 0.8\n11.2 14 0.8\n11.2 14 11.2\n0.8 14 11.2\n"
+                         "3 0 1 2\n3 0 2 3\n3 4 6 5\n3 4 7 6\n3 0 5 1\n3 0 4 5\n"
+                         "3 1 6 2\n3 1 5 6\n3 2 7 3\n3 2 6 7\n3 3 4 0\n3 3 7 4\n";
+  auto c = case_::read_case(
+      HEMOMAG_SOURCE_DIR "/examples/tube_flow.toml",
+      {"channel.size=[\"22 um\", \"9 um\", \"22 um\"]", "cell.count=2", "carrier.count=100"});
+  c.channel.size = {12e-6, 9e-6, 12e-6};
+  c.channel.boundary = case_::Boundary::voxels;
+  c.channel.geometry = path.string();
+  c.channel.geometry_unit = 1e-6;
+  c.vessel = case_::make_vessel(c);
+  std::filesystem::remove(path);
+  EXPECT_EQ(c.vessel.fluid_nodes, 20 * 18 * 20) << "of 0.5 um between 0.8 and 11.2";
+  bool across = false;
+  for (c.seed = 1; c.seed < 6; ++c.seed) {
+    const auto system = case_::place(c);
+    ASSERT_EQ(system.cells.size(), 2u);
+    const auto gap = [](const Vec3& x) {
+      return 5.2e-6 - std::max(std::fabs(x.x - 6e-6), std::fabs(x.z - 6e-6));
+    };
+    for (const auto& cell : system.cells)
+      for (const Vec3& x : cell.x) {
+        EXPECT_GE(gap(x), 0.3e-6 - 1e-15);
+        across = across || x.y < 0 || x.y > 9e-6;
+      }
+    for (const auto& p : system.carriers) EXPECT_GE(gap(p.beads[0]), 0.25e-6 - 1e-15);
+  }
+  EXPECT_TRUE(across) << "some cell reaches into the next period";
 }
 
 }  // namespace

@@ -1,0 +1,172 @@
+#include "case/toml_table.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "case/case_file.hpp"
+
+namespace hemomag::case_ {
+
+std::string Source::place(const toml::node& node) const {
+  const auto at = node.source().begin;
+  return path + ":" + std::to_string(at.line == 0 ? 1 : at.line) + ":" +
+         std::to_string(at.column == 0 ? 1 : at.column);
+}
+
+void Source::fail(const toml::node& node, const std::string& key,
+                  const std::string& problem) const {
+  const auto set = overridden.find(&node);
+  if (set != overridden.end()) throw CaseError("--set " + set->second + ": " + problem);
+  throw CaseError(place(node) + ": " + key + ": " + problem);
+}
+
+const char* type_name(const toml::node& node) {
+  switch (node.type()) {
+  case toml::node_type::string:
+    return "a string";
+  case toml::node_type::integer:
+    return "a whole number";
+  case toml::node_type::floating_point:
+    return "a number";
+  case toml::node_type::boolean:
+    return "true or false";
+  case toml::node_type::array:
+    return "a list";
+  case toml::node_type::table:
+    return "a table";
+  default:
+    return "a date or time";
+  }
+}
+
+Table::Table(const Source& source, const toml::table* table, std::string schema, std::string path)
+    : source_(source), table_(table), schema_(std::move(schema)), path_(std::move(path)) {
+  if (table_) refuse_unknown();
+}
+
+std::string Table::word(const char* name) const {
+  const Key& key = *find_key(schema_, name);
+  if (!has(name)) return key.fallback;
+  const auto text = node(name).value<std::string>();
+  const bool table = node(name).is_table();  // placement = { file = ... }
+  if (!text && !table) wrong_type(name, key);
+  const std::string word = table ? "file" : *text;
+  if (key.kind == Kind::text) return word;
+  for (const char* choice : key.choices)
+    if (word == choice) return word;
+  for (const char* choice : key.later)
+    if (word == choice)
+      fail(name, "\"" + word + "\" is not available in this version; accepted: " + accepted(key));
+  fail(name, "\"" + word + "\" is unknown; accepted: " + accepted(key));
+}
+
+bool Table::flag(const char* name) const {
+  const Key& key = *find_key(schema_, name);
+  if (!has(name)) return std::string(key.fallback) == "true";
+  const auto value = node(name).value_exact<bool>();
+  if (!value) wrong_type(name, key);
+  return *value;
+}
+
+double Table::number(const char* name) const {
+  const Key& key = *find_key(schema_, name);
+  if (!has(name)) return std::stod(key.fallback);
+  const auto& n = node(name);
+  if (!n.is_number() || (key.kind == Kind::integer && !n.is_integer())) wrong_type(name, key);
+  return in_range(name, key, *n.value<double>());
+}
+
+double Table::quantity(const char* name) const {
+  const Key& key = *find_key(schema_, name);
+  if (!has(name)) return case_::quantity(key.fallback, *key.dimension);
+  return in_range(name, key, read(name, key, node(name)));
+}
+
+std::optional<double> Table::optional_quantity(const char* name) const {
+  if (!has(name) && *find_key(schema_, name)->fallback == '\0') return std::nullopt;
+  return quantity(name);
+}
+
+std::array<double, 3> Table::vector(const char* name) const {
+  const Key& key = *find_key(schema_, name);
+  std::array<double, 3> v{};
+  if (!has(name)) return v;
+  const auto* list = node(name).as_array();
+  if (!list || list->size() != 3) wrong_type(name, key);
+  for (std::size_t d = 0; d < 3; ++d) v[d] = in_range(name, key, read(name, key, *list->get(d)));
+  return v;
+}
+
+bool Table::is_word(const char* name, const char* word) const {
+  return has(name) && node(name).value<std::string>() == std::optional<std::string>(word);
+}
+
+void Table::refuse_later(const char* name) const {
+  const Key& key = *find_key(schema_, name);
+  for (const char* word : key.later)
+    if (is_word(name, word))
+      fail(name, std::string("\"") + word +
+                     "\" is not available in this version; accepted: " + accepted(key));
+}
+
+void Table::refuse_if_given(const char* name, const std::string& problem) const {
+  if (has(name)) fail(name, problem);
+}
+
+void Table::fail(const char* name, const std::string& problem) const {
+  source_.fail(node(name), full(name), problem);
+}
+
+void Table::missing(const char* name, const std::string& problem) const {
+  if (table_) source_.fail(*table_, full(name), problem);
+  throw CaseError(source_.path + ":1:1: " + full(name) + ": " + problem);
+}
+
+void Table::require(const char* name) const {
+  if (!has(name))
+    missing(name, "is missing; " + accepted(*find_key(schema_, name)) + " is required");
+}
+
+void Table::refuse_unknown() const {
+  for (const auto& [name, value] : *table_) {
+    const std::string text(name.str());
+    if (find_key(schema_, text)) continue;
+    if (schema_.empty() && !nearest_name("", text).empty() && nearest_name("", text) == text)
+      continue;  // a table
+    const std::string near = nearest_name(schema_, text);
+    std::string known;
+    for (const Key& key : keys())
+      if (schema_ == key.table) known += (known.empty() ? "" : ", ") + std::string(key.name);
+    source_.fail(value, full(text.c_str()),
+                 "is not a key" + (near.empty()
+                                       ? "; accepted: " + known
+                                       : "; did you mean " + near + "? accepted: " + known));
+  }
+}
+
+void Table::wrong_type(const char* name, const Key& key) const {
+  fail(name, std::string(type_name(node(name))) +
+                 " is not what is meant here; accepted: " + accepted(key));
+}
+
+double Table::read(const char* name, const Key& key, const toml::node& n) const {
+  const auto text = n.value<std::string>();
+  if (!text)
+    source_.fail(n, full(name),
+                 std::string(type_name(n)) + " without a unit; accepted: " + accepted(key) +
+                     " as a string");
+  try {
+    return case_::quantity(*text, *key.dimension);
+  } catch (const Error& e) {
+    source_.fail(source_.overridden.contains(&node(name)) ? node(name) : n, full(name), e.what());
+  }
+}
+
+double Table::in_range(const char* name, const Key& key, double value) const {
+  const bool low = key.above_min ? value > key.min : value >= key.min;
+  if (!std::isfinite(value) || !low || value > key.max)
+    fail(name, "is out of range; accepted: " + accepted(key));
+  return value;
+}
+
+}  // namespace hemomag::case_
