@@ -149,12 +149,13 @@ int remove_flat_triangles(Surface& surface) {
       triangle_on[directed(triangles[t][k], triangles[t][(k + 1) % 3])] = t;
   std::vector<char> changed(triangles.size(), 0);
   for (const auto t : flat) {
+    if (changed[t]) continue;
     const auto k = static_cast<std::size_t>(flat_corner(surface.points, triangles[t]));
     const int m = triangles[t][k];
     const int b = triangles[t][(k + 1) % 3];
     const int a = triangles[t][(k + 2) % 3];
     const auto other = triangle_on.find(directed(a, b));
-    if (other == triangle_on.end() || changed[t] || changed[other->second]) continue;
+    if (other == triangle_on.end() || changed[other->second]) continue;
     const auto n = other->second;
     int d = m;
     for (int v : triangles[n])

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <numbers>
 #include <random>
 #include <sstream>
 
@@ -14,6 +15,7 @@
 #include "io/files.hpp"
 #include "io/surface_file.hpp"
 #include "lattice/closed_surface.hpp"
+#include "lattice/surface_vessel.hpp"
 #include "support/shapes.hpp"
 
 namespace {
@@ -260,6 +262,21 @@ TEST_F(SurfaceFile, DegenerateTrianglesGoAndTheSurfaceStaysClosed) {
   EXPECT_THROW(lattice::closed(leaf, "s"), Error);  // its edge 0-1 is of four triangles
 }
 
+TEST_F(SurfaceFile, RowsOfFlatTrianglesGoOneAfterTheOther) {
+  // Points 8 and 9 cut edge 0-1 in three; the fan of the lower side has two flat triangles there.
+  const std::string box =
+      "OFF 10 6 0\n0 0 0\n3 0 0\n0 3 0\n3 3 0\n0 0 3\n3 0 3\n0 3 3\n3 3 3\n1 0 0\n2 0 0\n"
+      "6 0 2 3 1 9 8\n4 4 5 7 6\n6 5 4 0 8 9 1\n4 2 6 7 3\n4 0 4 6 2\n4 1 3 7 5\n";
+  const Surface s = read("box.off", box);
+  EXPECT_EQ(s.points.size(), 10u);
+  EXPECT_EQ(s.triangles.size(), 16u);  // 2 (points) - 4, as for every closed surface like a sphere
+  EXPECT_DOUBLE_EQ(volume(s), 27);
+  for (const auto& [a, b, c] : s.triangles) {
+    const auto x = [&](int v) { return s.points[std::size_t(v)]; };
+    EXPECT_GT(norm(cross(x(b) - x(a), x(c) - x(a))), 1);
+  }
+}
+
 TEST_F(SurfaceFile, FaultsOfTheSurfaceAreCounted) {
   Surface s = test::cube(1);
   s.triangles.pop_back();
@@ -367,6 +384,47 @@ TEST_F(SurfaceFile, MalformedFilesAreRefusedWithTheReason) {
   expect_refused("list.ply", with(p, "2 -1 -2", "2000000000 -1 -2"),
                  "counts 2000000000 values of a list");
   expect_refused("none.ply", "ply\nformat ascii 1.0\nend_header\n", "holds no triangles");
+}
+
+/// What tools/make_vessel promises of a vessel along y in a box of this length: both ends of the
+/// box cut the same section, and no cap is nearer to a point of the box than the wall.
+void expect_periodic(const lattice::SurfaceVessel& vessel, const Vec3& box) {
+  constexpr double single = 1e-5;  // spacing of single precision at 100 um
+  std::mt19937_64 random(23);
+  std::uniform_real_distribution<double> u(0, 1);
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3 x{box.x * u(random), 0, box.z * u(random)};
+    if (vessel.distance(x) > 0) {
+      EXPECT_NEAR(vessel.distance(x), vessel.distance(x + Vec3{0, box.y, 0}), single);
+    }
+    EXPECT_EQ(vessel.distance(x) > single, vessel.distance(x + Vec3{0, box.y, 0}) > single);
+  }
+}
+
+TEST_F(SurfaceFile, TheExampleStenosisIsATubeWithAThroat) {
+  const lattice::SurfaceVessel vessel(
+      io::read_surface(HEMOMAG_SOURCE_DIR "/examples/stenosis.stl"));
+  expect_periodic(vessel, {24, 48, 24});
+  // The sides of a polygon of 56 corners are nearer to its middle than the corners.
+  const double side = std::cos(std::numbers::pi / 56);
+  EXPECT_NEAR(vessel.distance({12, 0, 12}), 10 * side, 1e-5);
+  EXPECT_NEAR(vessel.distance({12, 48, 12}), 10 * side, 1e-5);
+  EXPECT_NEAR(vessel.distance({12, 24, 12}), 6 * side, 1e-5);
+  EXPECT_LT(vessel.distance({12 + 6.5, 24, 12}), 0);
+  EXPECT_GT(vessel.distance({12 + 6.5, 6, 12}), 3);
+}
+
+TEST_F(SurfaceFile, TheExampleBifurcationPartsAndJoins) {
+  const lattice::SurfaceVessel vessel(
+      io::read_surface(HEMOMAG_SOURCE_DIR "/examples/bifurcation.stl"));
+  expect_periodic(vessel, {36, 72, 18});
+  // Radii by Murray's law, less what sides of 2.4 um cut off a circle: side^2 / (8 radius).
+  const double daughter = 7 / std::cbrt(2.0);
+  EXPECT_NEAR(vessel.distance({18, 0, 9}), 7, 2.4 * 2.4 / (8 * 7));
+  EXPECT_NEAR(vessel.distance({18 - 8.5, 36, 9}), daughter, 2.4 * 2.4 / (8 * daughter));
+  EXPECT_NEAR(vessel.distance({18 + 8.5, 36, 9}), daughter, 2.4 * 2.4 / (8 * daughter));
+  EXPECT_LT(vessel.distance({18, 36, 9}), -2);
+  EXPECT_EQ(vessel.surface().triangles.size(), 2 * vessel.surface().points.size());  // genus 1
 }
 
 TEST_F(SurfaceFile, TroubleOpeningNamesPathAndReason) {
