@@ -50,9 +50,10 @@ void bench_fluid(bool json) {
     solver::Precision precision;
     double bytes_per_update() const {
       // 19 populations read and written in place, 3 forces read, 3 velocities written and first
-      // fetched; the exponential scheme also reads 7 moments of one step and replaces 7 of another.
+      // fetched; the exponential scheme also reads 10 numbers of one step and replaces 10 of
+      // another.
       const bool exponential = relaxation.collision == fluid::Collision::exponential;
-      const double numbers = 19 * 2 + 3 + 3 * 2 + (exponential ? 7 + 7 * 2 : 0);
+      const double numbers = 19 * 2 + 3 + 3 * 2 + (exponential ? 10 + 10 * 2 : 0);
       return numbers * (precision == solver::Precision::single_ ? 4 : 8);
     }
     const char* precision_name() const {

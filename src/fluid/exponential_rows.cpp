@@ -8,11 +8,50 @@
 namespace hemomag::fluid::HEMOMAG_SIMD {
 namespace {
 
-template <class Real>
-[[gnu::always_inline]] inline Moments<typename Simd<Real>::Vector>
-load_moments(const Real* const* field, std::ptrdiff_t at) {
-  return {load(field[0] + at), load(field[1] + at), load(field[2] + at), load(field[3] + at),
-          load(field[4] + at), load(field[5] + at), load(field[6] + at)};
+/// The ten numbers of other nodes, loaded when they are asked for.
+template <class Real> struct SourceAt {
+  const Real* const* field;
+  std::ptrdiff_t at;
+  [[gnu::always_inline]] auto value(int k) const { return load(field[k] + at); }
+  [[gnu::always_inline]] auto r() const { return value(0); }
+  [[gnu::always_inline]] auto j(int d) const { return value(1 + d); }
+  [[gnu::always_inline]] auto square(int d) const { return value(4 + d); }
+  [[gnu::always_inline]] auto mixed(int plane) const { return value(7 + plane); }
+};
+
+/// a s + b t, number by number.
+template <class Real, class S, class T>
+[[gnu::always_inline]] inline Source<typename Simd<Real>::Vector> combine(Real a, const S& s,
+                                                                          Real b, const T& t) {
+  Source<typename Simd<Real>::Vector> sum;
+#pragma GCC unroll 10
+  for (int k = 0; k < sources; ++k) sum.value[k] = a * s(k) + b * t(k);
+  return sum;
+}
+
+/// Ask for what the sweep will touch first twelve cache lines ahead. The processor's own prefetch
+/// does not follow 45 streams at once: without this the sweep takes 36 ns a node instead of 20.
+template <Pass pass, class Real>
+[[gnu::always_inline]] inline void prefetch_ahead(const SweepFields<Real>& s,
+                                                  const std::ptrdiff_t (&towards)[19],
+                                                  std::ptrdiff_t at, std::ptrdiff_t node) {
+  constexpr std::ptrdiff_t ahead = 12 * 64 / static_cast<std::ptrdiff_t>(sizeof(Real));
+  constexpr int read = 0, second_level = 2;
+  const std::ptrdiff_t newest = s.f_row + s.f_plane;  // the row of `last` not touched before
+#pragma GCC unroll 10
+  for (int k = 0; k < sources; ++k) {
+    __builtin_prefetch(s.last[k] + at + newest + ahead, read, second_level);
+    __builtin_prefetch(s.present[k] + at + ahead, read, second_level);
+  }
+#pragma GCC unroll 19
+  for (int i = 0; i < 19; ++i)
+    __builtin_prefetch(s.f[i] + at + (pass == Pass::local ? 0 : towards[i]) + ahead, read,
+                       second_level);
+#pragma GCC unroll 3
+  for (int d = 0; d < 3; ++d) {
+    __builtin_prefetch(s.force[d] + node + ahead, read, second_level);
+    __builtin_prefetch(s.u[d] + node + ahead, read, second_level);
+  }
 }
 
 template <Pass pass, bool solid, class Real>
@@ -21,73 +60,59 @@ template <Pass pass, bool solid, class Real>
   const double tau_ = r.tau, E_ = __builtin_exp(-1 / tau_), D_ = 1 - (1 - E_) * tau_,
                K_ = 0.5 - D_ * (tau_ + 0.5);
   const Real tau = static_cast<Real>(tau_), E = static_cast<Real>(E_),
-             one_E = static_cast<Real>(1 - E_), D = static_cast<Real>(D_),
-             D_K = static_cast<Real>(D_ - K_), K = static_cast<Real>(K_);
+             one_E = static_cast<Real>(1 - E_), D_K = static_cast<Real>(D_ - K_),
+             K = static_cast<Real>(K_);
   constexpr Real third = Real(1.0 / 3);
   std::ptrdiff_t towards[19];
   for (int i = 0; i < 19; ++i) towards[i] = ex[i] + ey[i] * s.f_row + ez[i] * s.f_plane;
   sweep_rows<pass, solid>(
       s, r.force,
-      [&](std::ptrdiff_t at, std::ptrdiff_t node, Vector(&g)[19], const Vector(&F)[3], auto wet)
-          __attribute__((always_inline)) {
-            const Source<Vector, Real> last(load_moments(s.last, at), tau);
-            {
-              const Real* const before[moments] = {s.present[0], s.present[1], s.present[2],
-                                                   s.present[3], s.present[4], s.present[5],
-                                                   s.present[6]};
-              const Source<Vector, Real> earlier(load_moments(before, at), tau);
-              g[0] += third * (D * last.rest - K * earlier.rest);
-              for_each_pair<Real>([&](int a, int b, Real w, auto c) __attribute__((always_inline)) {
-                const Source<Vector, Real> ahead(load_moments(s.last, at + towards[a]), tau);
-                const Source<Vector, Real> behind(load_moments(s.last, at + towards[b]), tau);
-                const auto even = [&](const Source<Vector, Real>& q) {
-                  return q.even(w, c(q.ux, q.uy, q.uz), c(q.qx, q.qy, q.qz));
-                };
-                const auto odd = [&](const Source<Vector, Real>& q) {
-                  return q.odd(w, c(q.jx, q.jy, q.jz));
-                };
-                const Vector both = D_K * even(last) - K * even(earlier);
-                const Vector sense = D_K * odd(last) - K * odd(earlier);
-                g[a] += both + sense + K * (even(ahead) + odd(ahead));
-                g[b] += both - sense + K * (even(behind) - odd(behind));
-              });
-            }
-            if constexpr (solid)
-              for (int i = 0; i < 19; ++i) g[i] = wet(g[i]);
+      [&](std::ptrdiff_t at, std::ptrdiff_t node, Vector(&g)[19], const Vector(&F)[3],
+          auto wet) __attribute__((always_inline)) {
+        prefetch_ahead<pass>(s, towards, at, node);
+        const auto last = [&](int k) { return load(s.last[k] + at); };
+        const auto earlier = [&](int k) { return load(s.present[k] + at); };
+        {
+          const auto here = combine(D_K, last, -K, earlier);
+          g[0] += third * (here.r() + K * last(0));
+          for_each_pair<Real>([&](int a, int b, Real w, auto pair) __attribute__((always_inline)) {
+            const SourceAt<Real> ahead{s.last, at + towards[a]};
+            const SourceAt<Real> behind{s.last, at + towards[b]};
+            const Vector even = pair.even(here), odd = pair.odd(here);
+            g[a] += w * (even + odd + K * (pair.even(ahead) + pair.odd(ahead)));
+            g[b] += w * (even - odd + K * (pair.even(behind) - pair.odd(behind)));
+          });
+        }
+        if constexpr (solid)
+          for (int i = 0; i < 19; ++i) g[i] = wet(g[i]);
 
-            const Vector drho =
-                ((g[0] + (g[1] + g[2])) + ((g[3] + g[4]) + (g[5] + g[6]))) +
-                (((g[7] + g[8]) + (g[9] + g[10])) + ((g[11] + g[12]) + (g[13] + g[14]))) +
-                ((g[15] + g[16]) + (g[17] + g[18]));
-            const Vector per_rho = Real(1) / (drho + Real(1));
-            const Vector ux = per_rho * ((g[1] - g[2]) + ((g[7] - g[10]) + (g[8] - g[9])) +
-                                         ((g[11] - g[14]) - (g[12] - g[13])));
-            const Vector uy = per_rho * ((g[3] - g[4]) + ((g[7] - g[10]) - (g[8] - g[9])) +
-                                         ((g[15] - g[18]) + (g[16] - g[17])));
-            const Vector uz = per_rho * ((g[5] - g[6]) + ((g[11] - g[14]) + (g[12] - g[13])) +
-                                         ((g[15] - g[18]) - (g[16] - g[17])));
-            const Moments<Vector> m{drho, ux, uy, uz, F[0], F[1], F[2]};
-            store(s.u[0] + node, ux), store(s.u[1] + node, uy), store(s.u[2] + node, uz);
-            store(s.present[0] + at, drho);
-            store(s.present[1] + at, ux), store(s.present[2] + at, uy);
-            store(s.present[3] + at, uz);
-            store(s.present[4] + at, F[0]), store(s.present[5] + at, F[1]);
-            store(s.present[6] + at, F[2]);
+        const Vector drho =
+            ((g[0] + (g[1] + g[2])) + ((g[3] + g[4]) + (g[5] + g[6]))) +
+            (((g[7] + g[8]) + (g[9] + g[10])) + ((g[11] + g[12]) + (g[13] + g[14]))) +
+            ((g[15] + g[16]) + (g[17] + g[18]));
+        const Vector per_rho = Real(1) / (drho + Real(1));
+        const Vector u[3] = {per_rho * ((g[1] - g[2]) + ((g[7] - g[10]) + (g[8] - g[9])) +
+                                        ((g[11] - g[14]) - (g[12] - g[13]))),
+                             per_rho * ((g[3] - g[4]) + ((g[7] - g[10]) - (g[8] - g[9])) +
+                                        ((g[15] - g[18]) + (g[16] - g[17]))),
+                             per_rho * ((g[5] - g[6]) + ((g[11] - g[14]) + (g[12] - g[13])) +
+                                        ((g[15] - g[18]) - (g[16] - g[17])))};
+        for (int d = 0; d < 3; ++d) store(s.u[d] + node, u[d]);
+        const auto now = source(drho, u, F, tau);
+        const auto out = combine(
+            one_E, [&](int k) { return now.value[k]; }, -D_K, last);
+#pragma GCC unroll 10
+        for (int k = 0; k < sources; ++k) store(s.present[k] + at, now.value[k]);
 
-            const Source<Vector, Real> now(m, tau);
-            g[0] = E * g[0] + third * (one_E * now.rest - D_K * last.rest);
-            for_each_pair<Real>([&](int a, int b, Real w, auto c) __attribute__((always_inline)) {
-              const Vector both =
-                  one_E * now.even(w, c(now.ux, now.uy, now.uz), c(now.qx, now.qy, now.qz)) -
-                  D_K * last.even(w, c(last.ux, last.uy, last.uz), c(last.qx, last.qy, last.qz));
-              const Vector sense = one_E * now.odd(w, c(now.jx, now.jy, now.jz)) -
-                                   D_K * last.odd(w, c(last.jx, last.jy, last.jz));
-              g[a] = E * g[a] + both + sense;
-              g[b] = E * g[b] + both - sense;
-            });
-          },
+        g[0] = E * g[0] + third * out.r();
+        for_each_pair<Real>([&](int a, int b, Real w, auto pair) __attribute__((always_inline)) {
+          const Vector even = w * pair.even(out), odd = w * pair.odd(out);
+          g[a] = E * g[a] + (even + odd);
+          g[b] = E * g[b] + (even - odd);
+        });
+      },
       [&](std::ptrdiff_t at) {
-        for (int m = 0; m < moments; ++m) wrap_ghosts(s.present[m] + at, s.wrap_x, 1);
+        for (int k = 0; k < sources; ++k) wrap_ghosts(s.present[k] + at, s.wrap_x, 1);
       });
 }
 

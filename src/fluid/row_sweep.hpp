@@ -68,9 +68,9 @@ template <class Real>
   for (int y = s.y_lo; y < s.y_hi; ++y) wrap_home(s, y * s.f_row + z * s.f_plane);
 }
 
-/// Sweep all rows. `site(at, node, g, F)` collides one vector of nodes: `at` and `node` are its
-/// offsets in the layouts of f and of force; it stores velocity and moments itself and leaves the
-/// new populations in g.
+/// Sweep all rows. `site(at, node, g, F, wet)` collides one vector of nodes: `at` and `node`
+/// are its offsets in the layouts of f and of force, `wet` sets solid nodes to zero. It stores
+/// velocity and whatever else it keeps itself and leaves the new populations in g.
 template <Pass pass, bool solid, class Real, class Site, class RowDone>
 [[gnu::always_inline]] inline void sweep_rows(const SweepFields<Real>& s, const double* body,
                                               Site site, RowDone row_done) {

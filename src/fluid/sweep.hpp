@@ -20,8 +20,8 @@ namespace hemomag::fluid {
 
 enum class Pass { local, shift };
 
-/// Fields of a node that the exponential scheme remembers: density less one, velocity, force.
-inline constexpr int moments = 7;
+/// Numbers of a node that the exponential scheme remembers (fluid/exponential.hpp).
+inline constexpr int sources = 10;
 
 /// Everything a sweep touches. Pointers are at node (0, 0, 0); strides in elements.
 template <class Real> struct SweepFields {
@@ -36,10 +36,10 @@ template <class Real> struct SweepFields {
   /// Where the block closes on itself along x its ghosts are kept while a row is in the cache: then
   /// the number of nodes along x and the ghosts of force and velocity. Otherwise 0.
   int wrap_x, n_halo;
-  /// Exponential scheme only, laid out as f: the moments of the last step, ghosts included, and
+  /// Exponential scheme only, laid out as f: its numbers of the last step, ghosts included, and
   /// those of the step before it, which are replaced by the present ones.
-  const Real* last[moments];
-  Real* present[moments];
+  const Real* last[sources];
+  Real* present[sources];
 };
 
 /// Sweep the rows of `fields`, vectorised for `level`, with the collision of `relaxation`

@@ -14,14 +14,14 @@ namespace hemomag::solver {
 
 /// Some component arrays and the box of nodes of them that is sent or received.
 template <class Real> struct Slab {
-  std::array<Real*, 8> fields{};  ///< at node (0, 0, 0)
-  std::size_t count = 0;          ///< of fields
+  std::array<Real*, 10> fields{};  ///< at node (0, 0, 0)
+  std::size_t count = 0;           ///< of fields
   lattice::NodeBox box;
 
   Slab() = default;
   template <std::size_t n>
   Slab(const std::array<Real*, n>& all, const lattice::NodeBox& box_) : count(n), box(box_) {
-    static_assert(n <= 8);
+    static_assert(n <= 10);
     std::copy(all.begin(), all.end(), fields.begin());
   }
   std::size_t values() const { return count * box.count(); }

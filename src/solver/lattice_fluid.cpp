@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/error.hpp"
+#include "fluid/exponential.hpp"
 #include "lattice/d3q19.hpp"
 
 namespace hemomag::solver {
@@ -16,6 +17,11 @@ template <class Real> constexpr int lanes = static_cast<int>(cache_line / sizeof
 // Populations are swept side by side in 19 streams: start each on another cache line of a page.
 template <class Real> constexpr int stagger = 5 * lanes<Real>;
 
+/// Numbers a scheme keeps of a node.
+std::size_t numbers_of(const fluid::Relaxation& relaxation) {
+  return relaxation.collision == fluid::Collision::exponential ? 19 + 2 * fluid::sources : 19;
+}
+
 int coupling_halo(double reach_beyond_block) {
   return ibm::kernel_reach + static_cast<int>(std::ceil(reach_beyond_block));
 }
@@ -23,9 +29,10 @@ int coupling_halo(double reach_beyond_block) {
 /// Pointers to node (0, 0, 0) of the fields that lie one after the other in a storage.
 template <std::size_t n, class Real>
 std::array<Real*, n> fields_in(AlignedArray<Real>& storage, const lattice::NodeLayout& layout,
-                               std::size_t apart, std::size_t first = 0) {
+                               std::ptrdiff_t apart, std::ptrdiff_t first = 0) {
   std::array<Real*, n> at{};
-  for (std::size_t k = 0; k < n; ++k) at[k] = storage.data() + (first + k) * apart + layout.origin;
+  for (std::size_t k = 0; k < n; ++k)
+    at[k] = storage.data() + (first + static_cast<std::ptrdiff_t>(k)) * apart + layout.origin;
   return at;
 }
 
@@ -35,21 +42,20 @@ template <class Real>
 LatticeFluid<Real>::LatticeFluid(const Neighbourhood& at, const FluidParameters& parameters)
     : FluidSolver(at, parameters), f_layout_(at.block.size, 1, lanes<Real>),
       n_layout_(at.block.size, coupling_halo(parameters.reach_beyond_block), lanes<Real>),
-      f_storage_(19 * (f_layout_.count + stagger<Real>)), force_storage_(3 * n_layout_.count),
-      u_storage_(3 * n_layout_.count), halo_(at_) {
+      f_storage_(numbers_of(parameters.relaxation) * (f_layout_.count + stagger<Real>)),
+      force_storage_(3 * n_layout_.count), u_storage_(3 * n_layout_.count), halo_(at_) {
   for (int d = 0; d < 3; ++d)
     if (at.block.size[d] < n_layout_.halo)
       throw Error("fluid: a rank holds " + std::to_string(at.block.size[d]) + " nodes along " +
                   "xyz"[d] + ", but the coupling needs at least " + std::to_string(n_layout_.halo) +
                   " (use fewer ranks or a smaller skin)");
-  force_ = fields_in<3>(force_storage_, n_layout_, n_layout_.count);
-  u_ = fields_in<3>(u_storage_, n_layout_, n_layout_.count);
-  f_ = fields_in<19>(f_storage_, f_layout_, f_layout_.count + stagger<Real>);
+  force_ = fields_in<3>(force_storage_, n_layout_, static_cast<std::ptrdiff_t>(n_layout_.count));
+  u_ = fields_in<3>(u_storage_, n_layout_, static_cast<std::ptrdiff_t>(n_layout_.count));
+  const auto apart = static_cast<std::ptrdiff_t>(f_layout_.count) + stagger<Real>;
+  f_ = fields_in<19>(f_storage_, f_layout_, apart);
   if (exponential()) {
-    const std::size_t apart = f_layout_.count + stagger<Real>;
-    moment_storage_ = AlignedArray<Real>(2 * fluid::moments * apart);
-    last_ = fields_in<fluid::moments>(moment_storage_, f_layout_, apart);
-    present_ = fields_in<fluid::moments>(moment_storage_, f_layout_, apart, fluid::moments);
+    last_ = fields_in<fluid::sources>(f_storage_, f_layout_, apart, 19);
+    present_ = fields_in<fluid::sources>(f_storage_, f_layout_, apart, 19 + fluid::sources);
   }
   wraps_x_ = at_.neighbour[0][0] == at_.rank && at_.neighbour[0][1] == at_.rank;
   make_walls();
@@ -119,8 +125,12 @@ void LatticeFluid<Real>::initialise(const std::function<Flow(const Vec3&)>& fiel
         for (std::size_t i = 0; i < 19; ++i) f_[i][at] = static_cast<Real>(g[i]);
         for (std::size_t d = 0; d < 3; ++d) {
           u_[d][node] = static_cast<Real>(u[d]);
-          if (exponential()) last_[1 + d][at] = present_[1 + d][at] = u_[d][node];
         }
+        if (!exponential()) continue;
+        const Real velocity[3] = {u_[0][node], u_[1][node], u_[2][node]}, none[3] = {};
+        const auto numbers = fluid::source(Real(0), velocity, none, Real(1));
+        for (std::size_t k = 0; k < fluid::sources; ++k)
+          last_[k][at] = present_[k][at] = numbers.value[k];
       }
   next_ = fluid::Pass::local;
   if (exponential()) start_exponential();
@@ -130,17 +140,16 @@ void LatticeFluid<Real>::initialise(const std::function<Flow(const Vec3&)>& fiel
 /// The sweep adds to each population what it takes from the moments of two earlier steps; the flow
 /// is taken to have been steady until now.
 template <class Real> void LatticeFluid<Real>::start_exponential() {
-  exchange_moments(0);
+  exchange_sources(0);
   const fluid::ExponentialRates rates(parameters_.relaxation.tau);
-  const Real tau = static_cast<Real>(rates.tau);
   for_each_row(with_halo(0, 0), f_layout_, [&](std::ptrdiff_t row, int n) {
     for (std::ptrdiff_t at = row; at < row + n; ++at)
       for (int i = 0; i < 19; ++i) {
         const auto& c = d3q19::e[static_cast<std::size_t>(i)];
         const std::ptrdiff_t ahead = at + f_layout_.index(c[0], c[1], c[2]);
         f_[static_cast<std::size_t>(i)][at] -=
-            static_cast<Real>(rates.D - 2 * rates.K) * fluid::source_population(last_, at, i, tau) +
-            static_cast<Real>(rates.K) * fluid::source_population(last_, ahead, i, tau);
+            static_cast<Real>(rates.D - 2 * rates.K) * fluid::source_population(last_, at, i) +
+            static_cast<Real>(rates.K) * fluid::source_population(last_, ahead, i);
       }
   });
   reflect_source(-1);
@@ -249,7 +258,7 @@ template <class Real> void LatticeFluid<Real>::exchange_velocity(int first_axis)
   exchange(0);
 }
 
-template <class Real> void LatticeFluid<Real>::exchange_moments(int first_axis) {
+template <class Real> void LatticeFluid<Real>::exchange_sources(int first_axis) {
   for (int axis = first_axis; axis < 3; ++axis) {
     const Faces at = faces(axis, 1);
     halo_.start(axis, f_layout_, {last_, at.first}, {last_, at.ghost_high}, {last_, at.last},
@@ -331,7 +340,7 @@ template <class Real> void LatticeFluid<Real>::step() {
   const int first_axis = wraps_x_ ? 1 : 0;  // the sweep keeps the ghosts along x
   std::array<Vec3, 2> reflected{};
   plan_interior(shift);
-  if (exponential()) exchange_moments(first_axis);
+  if (exponential()) exchange_sources(first_axis);
   if (shift) {
     send_populations_forward();
     bounce_before_shift();
@@ -430,151 +439,8 @@ fluid::SweepFields<Real> LatticeFluid<Real>::sweep_fields(const NodeBox& box) {
   return s;
 }
 
-/// Visit the 19 populations of every owned node as they will be collided next: visit(node in
-/// x-fastest order, g).
-template <class Real>
-template <class Visit>
-void LatticeFluid<Real>::for_each_population(Visit visit) {
-  const bool shifted = next_ == fluid::Pass::shift;
-  if (shifted) {  // only fills ghosts and solid nodes: the next step may do it again
-    send_populations_forward();
-    bounce_before_shift();
-  }
-  std::size_t node = 0;
-  for (int z = 0; z < block().size[2]; ++z)
-    for (int y = 0; y < block().size[1]; ++y)
-      for (int x = 0; x < block().size[0]; ++x, ++node) {
-        if (!wet(n_layout_.index(x, y, z))) continue;
-        std::array<double, 19> g;
-        for (std::size_t i = 0; i < 19; ++i) {
-          const auto& c = d3q19::e[i];
-          g[i] = static_cast<double>(shifted ? f_[static_cast<std::size_t>(d3q19::opposite[i])]
-                                                 [f_layout_.index(x - c[0], y - c[1], z - c[2])]
-                                             : f_[i][f_layout_.index(x, y, z)]);
-        }
-        visit(node, g);
-      }
-}
-
-/// Visit rows of fluid nodes: visit(offset in the node layout, offset in the population layout,
-/// index of the node in x-fastest order), node by node.
-template <class Real>
-template <class Visit>
-void LatticeFluid<Real>::for_each_fluid_row(Visit visit) const {
-  std::size_t index = 0;
-  for (int z = 0; z < block().size[2]; ++z)
-    for (int y = 0; y < block().size[1]; ++y) {
-      const std::ptrdiff_t node = n_layout_.index(0, y, z), at = f_layout_.index(0, y, z);
-      for (int x = 0; x < block().size[0]; ++x, ++index)
-        if (wet(node + x)) visit(node + x, at + x, index);
-    }
-}
-
-template <class Real>
-void LatticeFluid<Real>::copy_owned(std::span<double> rho, std::span<Vec3> u) {
-  std::fill(rho.begin(), rho.end(), 1.0);
-  std::fill(u.begin(), u.end(), Vec3{});
-  for_each_fluid_row([&](std::ptrdiff_t node, std::ptrdiff_t at, std::size_t index) {
-    u[index] = {double(u_[0][node]), double(u_[1][node]), double(u_[2][node])};
-    if (exponential()) rho[index] += static_cast<double>(last_[0][at]);
-  });
-  if (!exponential())
-    for_each_population([&](std::size_t node, const std::array<double, 19>& g) {
-      double drho = 0;
-      for (const double g_i : g) drho += g_i;
-      rho[node] = 1 + drho;
-    });
-}
-
-template <class Real> double LatticeFluid<Real>::max_speed() const {
-  double largest = 0;
-  for_each_fluid_row([&](std::ptrdiff_t node, std::ptrdiff_t, std::size_t) {
-    const double x = u_[0][node], y = u_[1][node], z = u_[2][node], u2 = x * x + y * y + z * z;
-    largest = u2 <= largest ? largest : u2;  // a NaN wins
-  });
-  return std::sqrt(largest);
-}
-
-template <class Real> Vec3 LatticeFluid<Real>::total_velocity() const {
-  Vec3 sum;
-  for_each_fluid_row([&](std::ptrdiff_t node, std::ptrdiff_t, std::size_t) {
-    sum += {double(u_[0][node]), double(u_[1][node]), double(u_[2][node])};
-  });
-  return sum;
-}
-
-template <class Real> double LatticeFluid<Real>::fluid_nodes() const {
-  double count = 0;
-  for_each_fluid_row([&](std::ptrdiff_t, std::ptrdiff_t, std::size_t) { count += 1; });
-  return count;
-}
-
-template <class Real> Vec3 LatticeFluid<Real>::node_force() const {
-  Vec3 sum;
-  for_each_fluid_row([&](std::ptrdiff_t node, std::ptrdiff_t, std::size_t) {
-    sum += {double(force_[0][node]), double(force_[1][node]), double(force_[2][node])};
-  });
-  return sum;
-}
-
-template <class Real> double LatticeFluid<Real>::excess_mass() {
-  double mass = 0;
-  if (exponential())
-    for_each_fluid_row([&](std::ptrdiff_t, std::ptrdiff_t at, std::size_t) {
-      mass += static_cast<double>(last_[0][at]);
-    });
-  else
-    for_each_population([&](std::size_t, const std::array<double, 19>& g) {
-      for (const double g_i : g) mass += g_i;
-    });
-  return mass;
-}
-
-template <class Real> Vec3 LatticeFluid<Real>::momentum() {
-  Vec3 j;
-  if (exponential())
-    for_each_fluid_row([&](std::ptrdiff_t, std::ptrdiff_t at, std::size_t) {
-      j += (1 + double(last_[0][at])) *
-           Vec3{double(last_[1][at]), double(last_[2][at]), double(last_[3][at])};
-    });
-  else
-    for_each_population([&](std::size_t, const std::array<double, 19>& g) {
-      for (std::size_t i = 0; i < 19; ++i)
-        j += g[i] * Vec3{double(d3q19::e[i][0]), double(d3q19::e[i][1]), double(d3q19::e[i][2])};
-    });
-  return j;
-}
-
-template <class Real> WallDistance LatticeFluid<Real>::wall_distance(const Vec3& x) const {
-  int at[3];
-  double t[3];
-  for (std::size_t d = 0; d < 3; ++d) {
-    const double local = x[d] - block().begin[d] - 0.5;
-    at[d] = std::clamp(static_cast<int>(std::floor(local)), -n_layout_.halo,
-                       block().size[d] + n_layout_.halo - 2);
-    t[d] = local - at[d];
-  }
-  WallDistance wall{};
-  for (int corner = 0; corner < 8; ++corner) {
-    const int c[3] = {corner & 1, corner >> 1 & 1, corner >> 2};
-    const double value =
-        static_cast<double>(distance_[n_layout_.index(at[0] + c[0], at[1] + c[1], at[2] + c[2])]);
-    double weight[3];
-    for (int d = 0; d < 3; ++d) weight[d] = c[d] ? t[d] : 1 - t[d];
-    wall.distance += value * weight[0] * weight[1] * weight[2];
-    wall.gradient += value * Vec3{(c[0] ? 1 : -1) * weight[1] * weight[2],
-                                  (c[1] ? 1 : -1) * weight[0] * weight[2],
-                                  (c[2] ? 1 : -1) * weight[0] * weight[1]};
-  }
-  return wall;
-}
-
-template <class Real> std::size_t LatticeFluid<Real>::bytes() const {
-  return sizeof(Real) * (f_storage_.size() + force_storage_.size() + u_storage_.size() +
-                         moment_storage_.size() + distance_storage_.size());
-}
-
-template class LatticeFluid<double>;
+template class LatticeFluid<double>;  // the members defined here; the others:
+                                      // lattice_fluid_values.cpp
 template class LatticeFluid<float>;
 
 std::unique_ptr<FluidSolver> make_fluid(const Neighbourhood& at,

@@ -49,6 +49,7 @@ private:
   void make_walls();
   void start_exponential();
   double fraction_in_fluid(int x, int y, int z, int direction) const;
+  double excess_density(std::ptrdiff_t at) const;
   bool wet(std::ptrdiff_t node) const { return !distance_ || distance_[node] > Real(0); }
   template <class Visit> void for_each_fluid_row(Visit visit) const;
 
@@ -56,7 +57,7 @@ private:
   void sum_forces_home();
   void clear_force_halo();
   void exchange_velocity(int first_axis);
-  void exchange_moments(int first_axis);
+  void exchange_sources(int first_axis);
   void send_populations_forward();
   void send_populations_home();
   using PlateRule = Vec3 (*)(const fluid::Plate&, const fluid::Populations<Real>&, const Layout&,
@@ -87,11 +88,11 @@ private:
 
   SimdLevel simd_ = simd_level();
   Layout f_layout_, n_layout_;
-  AlignedArray<Real> f_storage_, force_storage_, u_storage_, moment_storage_, distance_storage_;
+  AlignedArray<Real> f_storage_, force_storage_, u_storage_, distance_storage_;
   fluid::Populations<Real> f_{};
   fluid::NodeVector<Real> force_{}, u_{};
-  fluid::MomentFields<Real> last_{}, present_{};  // exponential scheme only
-  Real* distance_ = nullptr;                      // at node (0, 0, 0); vessels only
+  fluid::SourceNumbers<Real> last_{}, present_{};  // exponential scheme only
+  Real* distance_ = nullptr;                       // at node (0, 0, 0); vessels only
   HaloExchange<Real> halo_;
   std::vector<fluid::Plate> plates_;
   fluid::WallLinks<Real> links_;
