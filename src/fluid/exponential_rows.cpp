@@ -112,7 +112,11 @@ template <Pass pass, bool solid, class Real>
         });
       },
       [&](std::ptrdiff_t at) {
-        for (int k = 0; k < sources; ++k) wrap_ghosts(s.present[k] + at, s.wrap_x, 1);
+        for (int k = 0; k < sources; ++k)
+          if (s.wrap_x > 0)
+            wrap_ghosts(s.present[k] + at, s.wrap_x, 1);
+          else  // a ghost in the padding: zero beyond a plate, or about to be received
+            s.present[k][at + s.size_x] = Real(0);
       });
 }
 

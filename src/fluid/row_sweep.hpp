@@ -109,8 +109,8 @@ template <Pass pass, bool solid, class Real, class Site, class RowDone>
       if (s.wrap_x > 0) {
         for (int d = 0; d < 3; ++d) wrap_ghosts(s.u[d] + node, s.wrap_x, s.n_halo);
         if (pass == Pass::local) wrap_forward(s, at);
-        row_done(at);
       }
+      row_done(at);
     }
     // A plane has received all it will get once the next one is done.
     if (pass == Pass::shift && s.wrap_x > 0 && z > s.z_lo) wrap_plane_home(s, z - 1);

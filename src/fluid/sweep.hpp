@@ -31,7 +31,7 @@ template <class Real> struct SweepFields {
   Real* u[3];                     ///< velocity, written
   const Real* distance;           ///< from the wall, not above 0 in solid nodes; or null: no solid
   std::ptrdiff_t n_row, n_plane;  ///< of force, u and distance
-  int padded_x;                   ///< row length in whole vectors of the widest level
+  int size_x, padded_x;           ///< nodes along x, and rounded up to whole vectors
   int y_lo, y_hi, z_lo, z_hi;
   /// Where the block closes on itself along x its ghosts are kept while a row is in the cache: then
   /// the number of nodes along x and the ghosts of force and velocity. Otherwise 0.

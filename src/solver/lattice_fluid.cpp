@@ -102,7 +102,7 @@ double LatticeFluid<Real>::fraction_in_fluid(int x, int y, int z, int direction)
   const auto in_fluid = [&](double q) { return parameters_.vessel->distance(from + q * link) > 0; };
   if (!in_fluid(0) || in_fluid(1)) return 0.5;
   double low = 0, high = 1;
-  constexpr int halvings = 40;
+  constexpr int halvings = 52;  // to the last bit
   for (int k = 0; k < halvings; ++k) {
     const double middle = 0.5 * (low + high);
     (in_fluid(middle) ? low : high) = middle;
@@ -431,7 +431,7 @@ fluid::SweepFields<Real> LatticeFluid<Real>::sweep_fields(const NodeBox& box) {
   s.distance = distance_;
   s.f_row = f_layout_.row, s.f_plane = f_layout_.plane;
   s.n_row = n_layout_.row, s.n_plane = n_layout_.plane;
-  s.padded_x = f_layout_.padded_x;
+  s.size_x = block().size[0], s.padded_x = f_layout_.padded_x;
   s.wrap_x = wraps_x_ ? block().size[0] : 0;
   s.n_halo = n_layout_.halo;
   s.y_lo = box.lo[1], s.y_hi = box.hi[1];
