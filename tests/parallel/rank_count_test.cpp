@@ -53,6 +53,15 @@ TEST(RankCount, ResultsAgreeAfter200Steps) {
   }
 }
 
+TEST(RankCount, TwoRunsAreTheSameToTheLastBit) {
+  const auto c = test::small_case();
+  const auto system = case_::place(c);
+  const auto first = test::run_case_on(MPI_COMM_WORLD, c, system, [](lammps::Host&) {});
+  const auto second = test::run_case_on(MPI_COMM_WORLD, c, system, [](lammps::Host&) {});
+  EXPECT_TRUE(first.x == second.x);
+  EXPECT_TRUE(first.f == second.f);
+}
+
 enum class Walls { none, plates_x, plates_y, plates_z, tube, tube_halfway };
 
 /// Velocity of every node after some steps of a flow without particles, on the first ranks of the
