@@ -10,8 +10,8 @@
 namespace hemomag::fluid {
 
 /// What interpolation and spreading see beyond a curved wall. A solid node s at distance d_s < 0
-/// from the wall continues the flow of the fluid nodes k within two nodes of it, by the least
-/// squares of a flow that vanishes at the wall and grows with the distance from it:
+/// from the wall continues the flow of the nearest fluid nodes k within two nodes of it, by the
+/// least squares of a flow that vanishes at the wall and grows with the distance from it:
 ///
 ///   u_s = d_s sum_k w_k d_k u_k / sum_k w_k d_k^2,    w_k = 1/|x_k - x_s|^4
 ///

@@ -72,14 +72,14 @@ inline double hydrodynamic_radius(DeltaKernel kernel, double magic) {
 /// nodes; below the first point R hardly changes.
 /// @param tau  3 nu  > 0
 inline double exponential_radius(DeltaKernel kernel, double tau) {
-  constexpr int points = 10;
-  constexpr double at[points] = {0.05, 0.1, 0.2, 0.3, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0};
+  constexpr int points = 11;
+  constexpr double at[points] = {0.05, 0.1, 0.2, 0.3, 0.5, 0.75, 1.0, 1.5, 2.0, 2.5, 3.0};
   constexpr double radius[4][points] = {
       // cosine4, peskin4, roma3, linear2
-      {1.238, 1.239, 1.237, 1.222, 1.169, 1.088, 1.007, 0.857, 0.732, 0.539},
-      {1.239, 1.239, 1.237, 1.222, 1.169, 1.089, 1.007, 0.858, 0.732, 0.539},
-      {0.885, 0.882, 0.877, 0.859, 0.804, 0.727, 0.655, 0.537, 0.447, 0.319},
-      {0.597, 0.587, 0.578, 0.561, 0.512, 0.449, 0.395, 0.313, 0.255, 0.179},
+      {1.238, 1.239, 1.237, 1.222, 1.169, 1.088, 1.007, 0.857, 0.732, 0.627, 0.539},
+      {1.239, 1.239, 1.237, 1.222, 1.169, 1.089, 1.007, 0.858, 0.732, 0.627, 0.539},
+      {0.885, 0.882, 0.877, 0.859, 0.804, 0.727, 0.655, 0.537, 0.447, 0.376, 0.319},
+      {0.597, 0.587, 0.578, 0.561, 0.512, 0.449, 0.395, 0.313, 0.255, 0.212, 0.179},
   };
   return inverse_linear(at, radius[static_cast<int>(kernel)], points, tau > at[0] ? tau : at[0]);
 }
