@@ -104,7 +104,8 @@ struct Pose {
   Vec3 place(const Vec3& p) const { return centre + p.x * ex + p.y * ey + p.z * ez; }
   bool inside(const Vec3& from_centre) const {
     const double x = dot(from_centre, ex), y = dot(from_centre, ey), z = dot(from_centre, ez);
-    return std::fabs(z) < membrane::rest_height(std::hypot(x, y), cell_diameter);
+    return std::fabs(z) <
+           membrane::rest_height(membrane::red_cell_shape(cell_diameter), std::hypot(x, y));
   }
 };
 
