@@ -53,7 +53,8 @@ inline constexpr int min_mesh_vertices = 162;
 /// nm at 3286). The area is then 0.4 % above rest_area at 642 vertices, 0.1 % at 3286. The same
 /// arguments give the same mesh.
 /// @param vertices  at least min_mesh_vertices
-/// @throws hemomag::Error when an argument is out of range or the gates are not reached
+/// @throws hemomag::Error when an argument is out of range or the gates are not reached, as on
+/// spheroids thinner than a fifth of their diameter with few vertices
 /// Cost: about 0.1 ms a vertex.
 TriangleMesh evened_mesh(const RestShape& shape, int vertices, std::uint64_t seed);
 
