@@ -135,8 +135,14 @@ private:
     const Cell& cell = c_.cells[m];
     const CellModel& model = models_[m];
     const int count = cell_count(c_, cell, model);
-    add("cells", text("%d of %d vertices, hematocrit %.4g", count, cell.vertices,
+    const char* kind = cell.kind == CellKind::platelet ? " platelets"
+                       : cell.kind == CellKind::white  ? " white cells"
+                                                       : "";
+    add("cells", text("%d%s of %d vertices, hematocrit %.4g", count, kind, cell.vertices,
                       count * model.volume / fluid_volume(c_)));
+    size_of_cell(model);
+    if (cell.surface) mesh_quality(model);
+    if (cell.stress_free == StressFree::sphere) prestress(cell, model);
     const double eta = units_.pressure() * units_.dt;  // the unit of viscosity
     const double S = (cell.area_modulus_local + cell.area_modulus_global + 2 * cell.shear_modulus) /
                      units_.tension() / (2 * c_.fluid.viscosity / eta);
@@ -151,7 +157,39 @@ private:
         "fewer vertices or a smaller dx");
     if (nominal_shear_rate(c_) > 0)
       add("capillary number", text("Ca = %.3g", c_.fluid.viscosity * nominal_shear_rate(c_) *
-                                                    cell_radius / cell.shear_modulus));
+                                                    model.radius / cell.shear_modulus));
+  }
+
+  /// A unit that was mistaken shows here.
+  void size_of_cell(const CellModel& model) {
+    const double widest = std::max({c_.channel.size[0], c_.channel.size[1], c_.channel.size[2]});
+    if (2 * model.reach < widest) return;
+    add("cell size", text("%.4g um", 2e6 * model.reach), Verdict::refused,
+        text("less than the box, %.4g um; see cell.diameter or cell.mesh_unit", widest * 1e6));
+  }
+
+  /// Of a user's surface; the generator's own meshes are within the gates.
+  void mesh_quality(const CellModel& model) {
+    using membrane::MeshGates;
+    const auto q = membrane::quality(model.mesh);
+    const bool even = q.mean_edge_ratio <= MeshGates::mean_edge_ratio &&
+                      q.worst_edge_ratio <= MeshGates::worst_edge_ratio &&
+                      q.smallest_angle >= MeshGates::smallest_angle;
+    add("mesh quality",
+        text("edge ratio %.3g, at worst %.3g, angles from %.3g", q.mean_edge_ratio,
+             q.worst_edge_ratio, q.smallest_angle),
+        even ? Verdict::fine : Verdict::doubtful,
+        text("an isotropic membrane needs %g, %g and %g degrees; remesh the surface",
+             MeshGates::mean_edge_ratio, MeshGates::worst_edge_ratio, MeshGates::smallest_angle));
+  }
+
+  void prestress(const Cell& cell, const CellModel& model) {
+    const double drawn = model.prestress.longest * cell.stretch_ratio;
+    add("prestress",
+        text("|l/l0 - 1| %.3g, at most %.3g; l/l_max %.3g", model.prestress.mean,
+             model.prestress.largest, drawn),
+        below(drawn, 0.7, 0.9),
+        "l/l_max under 0.9, where the springs have room to stretch; lower stretch_ratio");
   }
 
   void carriers(const Carrier& carrier) {

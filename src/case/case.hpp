@@ -2,11 +2,13 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "case/vessel.hpp"
+#include "lattice/surface.hpp"
 
 // A case as the user means it, in SI units, checked key by key. What the keys mean:
 // docs/case_file.md.
@@ -17,6 +19,8 @@ enum class Boundary { periodic, plates, tube, voxels };
 enum class Plates { lower_rest, symmetric };
 enum class Placement { random, grid };
 enum class Hinges { rest, flat };
+enum class CellKind { rbc, platelet, white };
+enum class StressFree { rest_shape, sphere };
 enum class CarrierKind { particle, worm };
 enum class Repulsion { soft, paper };
 enum class FieldKind { none, uniform, gradient };
@@ -51,7 +55,14 @@ struct Numerics {
 };
 
 struct Cell {
+  CellKind kind = CellKind::rbc;
+  double diameter = 7.82e-6;  ///< [m]
+  double thickness = 0;       ///< [m], platelet
   int vertices = 642;
+  std::string mesh;                                 ///< path of a user's own surface, or empty
+  double mesh_unit = 0;                             ///< [m], what one unit of that file is
+  std::shared_ptr<const lattice::Surface> surface;  ///< what it holds (read_cell_surface)
+  StressFree stress_free = StressFree::rest_shape;
   std::optional<double> hematocrit;
   std::optional<int> count;
   Placement placement = Placement::random;

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "case/cell_model.hpp"
 #include "case/keys.hpp"
 #include "case/lattice_units.hpp"
 #include "case/toml_table.hpp"
@@ -201,6 +202,15 @@ void read_numerics(Case& c, const Table& t) {
   read_time_step(c, t);
 }
 
+/// The path of a file that a key names relative to the case file.
+/// @throws CaseError at the key when it cannot be read
+std::string surface_path(const Table& t, const char* key, const std::string& case_path) {
+  const auto path = (std::filesystem::path(case_path).parent_path() / t.word(key)).string();
+  if (!std::filesystem::is_regular_file(path) || !std::ifstream(path))
+    t.fail(key, path + ": cannot be read; a readable STL, OFF or PLY file is expected");
+  return path;
+}
+
 /// The wall of a tube or of voxels, made here so that a surface that cannot be used is refused with
 /// its place.
 void read_vessel(Case& c, const Table& channel, const std::string& case_path) {
@@ -216,13 +226,8 @@ void read_vessel(Case& c, const Table& channel, const std::string& case_path) {
                     "xyz"[d], room * 1e6);
       channel.fail("diameter", text);
     }
-  if (c.channel.boundary == Boundary::voxels) {
-    c.channel.geometry =
-        (std::filesystem::path(case_path).parent_path() / channel.word("geometry")).string();
-    if (!std::ifstream(c.channel.geometry))
-      channel.fail("geometry", c.channel.geometry +
-                                   ": cannot be read; a readable STL, OFF or PLY file is expected");
-  }
+  if (c.channel.boundary == Boundary::voxels)
+    c.channel.geometry = surface_path(channel, "geometry", case_path);
   try {
     c.vessel = make_vessel(c);
   } catch (const Error& e) {
@@ -230,24 +235,74 @@ void read_vessel(Case& c, const Table& channel, const std::string& case_path) {
   }
 }
 
-Cell read_cell(const Table& t) {
-  Cell cell;
-  t.word("kind");
-  t.word("stress_free");
-  cell.vertices = static_cast<int>(t.number("vertices"));
+void read_cell_mesh(Cell& cell, const Table& t, const std::string& case_path) {
+  t.refuse_if_given("vertices", "excludes mesh, which has its own; accepted: one of the two");
+  for (const char* key : {"diameter", "thickness"})
+    t.refuse_if_given(key, "excludes mesh, whose size mesh_unit sets; accepted: leave it out");
+  cell.mesh = surface_path(t, "mesh", case_path);
+  try {
+    cell.surface = read_cell_surface(cell.mesh);
+  } catch (const Error& e) {
+    t.fail("mesh", e.what());
+  }
+  cell.vertices = static_cast<int>(cell.surface->points.size());
+  cell.mesh_unit = t.quantity("mesh_unit");
+}
+
+void read_cell_size(Cell& cell, const Table& t) {
+  t.refuse_if_given("mesh_unit", "needs mesh = \"FILE\"; accepted: that, or leave it out");
+  if (cell.kind == CellKind::rbc)
+    t.refuse_if_given("diameter", "is for platelets and white cells, a red cell has 7.82 um; "
+                                  "accepted: another kind, or leave it out");
+  if (cell.kind != CellKind::platelet)
+    t.refuse_if_given("thickness", "is for platelets; accepted: kind = \"platelet\", or leave it "
+                                   "out");
+  if (t.has("vertices")) cell.vertices = static_cast<int>(t.number("vertices"));
+  if (t.has("diameter")) cell.diameter = t.quantity("diameter");
+  if (t.has("thickness")) cell.thickness = t.quantity("thickness");
+  if (cell.kind != CellKind::platelet) return;
+  const double ratio = cell.thickness / cell.diameter;
+  if (ratio >= least_thickness * (1 - 1e-12) && ratio <= 1 + 1e-12) return;
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "%s%g um, out of range; accepted: at least %g um and at most the diameter, %g um",
+                t.has("thickness") ? "is " : "leaves the thickness at ", cell.thickness * 1e6,
+                least_thickness * cell.diameter * 1e6, cell.diameter * 1e6);
+  t.fail(t.has("thickness") ? "thickness" : "diameter", text);
+}
+
+void read_cell_count(Cell& cell, const Table& t) {
   if (t.has("count") && t.has("hematocrit"))
     t.fail("count", "excludes hematocrit; accepted: one of the two");
+  if (cell.kind != CellKind::rbc && !t.has("count") && !t.has("hematocrit"))
+    t.missing("count", "is missing; count or hematocrit is required but for red cells");
   if (t.has("count"))
     cell.count = static_cast<int>(t.number("count"));
   else
     cell.hematocrit = t.number("hematocrit");
+}
+
+Cell read_cell(const Table& t, const std::string& case_path) {
+  const std::string kind = t.word("kind");
+  Cell cell = standard_cell(kind == "platelet" ? CellKind::platelet
+                            : kind == "white"  ? CellKind::white
+                                               : CellKind::rbc);
+  if (t.has("mesh"))
+    read_cell_mesh(cell, t, case_path);
+  else
+    read_cell_size(cell, t);
+  read_cell_count(cell, t);
+  if (cell.kind != CellKind::rbc || cell.surface)
+    t.refuse_if_given("stress_free", "is for red cells without a mesh of their own, others are at "
+                                     "rest as they are; accepted: leave it out");
+  if (t.word("stress_free") == "sphere") cell.stress_free = StressFree::sphere;
   cell.placement = t.word("placement") == "grid" ? Placement::grid : Placement::random;
   cell.hinges = t.word("hinges") == "flat" ? Hinges::flat : Hinges::rest;
-  cell.shear_modulus = t.quantity("shear_modulus");
+  if (t.has("shear_modulus")) cell.shear_modulus = t.quantity("shear_modulus");
+  if (t.has("bending_modulus")) cell.bending_modulus = t.quantity("bending_modulus");
   cell.area_modulus_local = t.quantity("area_modulus_local");
   cell.area_modulus_global = t.quantity("area_modulus_global");
   cell.volume_modulus = t.quantity("volume_modulus");
-  cell.bending_modulus = t.quantity("bending_modulus");
   cell.stretch_ratio = t.number("stretch_ratio");
   return cell;
 }
@@ -353,11 +408,19 @@ void note_positions(Case& c, const Source& source, const toml::node& node,
       note_positions(c, source, *list->get(k), entry_path(path.c_str(), k, list->size()));
 }
 
-/// The case as run: overrides applied, and the surface where the run directory keeps its copy.
+/// The case as run: overrides applied, and surfaces where the run directory keeps its copies.
 std::string effective_text(Source& source, const Case& c, const std::string& text) {
-  const std::string copy = geometry_copy(c);
-  if (!copy.empty()) source.root["channel"].as_table()->insert_or_assign("geometry", copy);
-  if (copy.empty() && source.overridden.empty()) return text;
+  bool copies = false;
+  if (const std::string copy = geometry_copy(c); !copy.empty()) {
+    source.root["channel"].as_table()->insert_or_assign("geometry", copy);
+    copies = true;
+  }
+  for (std::size_t k = 0; k < c.cells.size(); ++k)
+    if (const std::string copy = mesh_copy(c, k); !copy.empty()) {
+      source.root["cell"][k].as_table()->insert_or_assign("mesh", copy);
+      copies = true;
+    }
+  if (!copies && source.overridden.empty()) return text;
   std::stringstream out;
   out << source.root << "\n";
   return out.str();
@@ -404,7 +467,7 @@ Case read_case(const std::string& path, const std::vector<std::string>& override
   check_size(c, channel);
   read_numerics(c, numerics);
   read_vessel(c, channel, path);
-  for (const Table& t : entries(source, "cell")) c.cells.push_back(read_cell(t));
+  for (const Table& t : entries(source, "cell")) c.cells.push_back(read_cell(t, path));
   for (const Table& t : entries(source, "carrier")) {
     c.carriers.push_back(read_carrier(t));
     if (c.carriers.back().feedback != c.carriers.front().feedback)

@@ -55,10 +55,6 @@ public:
   }
 
 private:
-  static double edge_length(const CellModel& m, const membrane::Edge& e) {
-    return norm(m.mesh.x[static_cast<std::size_t>(e.a)] - m.mesh.x[static_cast<std::size_t>(e.b)]);
-  }
-
   Counts totals() const {
     Counts n;
     for (const auto& cell : system_.cells) {
@@ -95,10 +91,9 @@ private:
     if (types_.bonds + worms_ > 0) out_("\nBond Coeffs\n");
     long type = 0;
     for (std::size_t m = 0; m < system_.models.size(); ++m)
-      for (const auto& e : system_.models[m].topology.edges)
+      for (const double rest : system_.models[m].rest_length)
         out_("%ld%s %.17g %.17g %.17g %.17g 2 0 0", ++type, bond_style, kBT / units_.energy(),
-             c_.cells[m].stretch_ratio,
-             edge_length(system_.models[m], e) / c_.cells[m].stretch_ratio / units_.dx,
+             c_.cells[m].stretch_ratio, rest / c_.cells[m].stretch_ratio / units_.dx,
              c_.cells[m].shear_modulus / units_.tension());
     worm_coefficients(type, [&](const Carrier& w, long t) {
       out_("%ld%s %.17g %.17g", t, hybrid_ ? " harmonic" : "", w.stretching / units_.tension(),

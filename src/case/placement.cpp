@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <random>
 #include <string>
 
 #include "base/error.hpp"
 #include "case/lattice_units.hpp"
-#include "membrane/rest_shape.hpp"
 
 namespace hemomag::case_ {
 namespace {
@@ -102,9 +102,9 @@ private:
 struct Pose {
   Vec3 centre, ex, ey, ez;
   Vec3 place(const Vec3& p) const { return centre + p.x * ex + p.y * ey + p.z * ez; }
-  bool inside(const Vec3& from_centre) const {
-    const double x = dot(from_centre, ex), y = dot(from_centre, ey), z = dot(from_centre, ez);
-    return std::fabs(z) < membrane::rest_height(std::hypot(x, y), cell_diameter);
+  bool inside(const CellModel& model, const Vec3& from_centre) const {
+    return norm(from_centre) < model.reach &&
+           model.contains({dot(from_centre, ex), dot(from_centre, ey), dot(from_centre, ez)});
   }
 };
 
@@ -124,7 +124,7 @@ std::string cell_key(const Case& c, std::size_t model) {
   return position(c, entry_path("cell", model, c.cells.size()) + ".placement");
 }
 
-/// Everything placed so far.
+/// Everything placed so far. Models are referred to, not copied.
 class Packing {
 public:
   explicit Packing(const Case& c)
@@ -140,10 +140,11 @@ public:
       if (box_.crosses_wall(pose.place(model.mesh.x[static_cast<std::size_t>(e.a)]),
                             pose.place(model.mesh.x[static_cast<std::size_t>(e.b)])))
         return false;
-    for (std::size_t k = 0; k < poses_.size(); ++k) {
-      if (norm(box_.nearest(poses_[k].centre - pose.centre)) > cell_diameter) continue;
-      for (const Vec3& x : placed_[k])
-        if (pose.inside(box_.nearest(x - pose.centre))) return false;
+    for (const Placed& other : placed_) {
+      const double apart = norm(box_.nearest(other.pose.centre - pose.centre));
+      if (apart > other.model->reach + model.reach) continue;
+      for (const Vec3& x : other.x)
+        if (pose.inside(model, box_.nearest(x - pose.centre))) return false;
     }
     return true;
   }
@@ -152,8 +153,7 @@ public:
     std::vector<Vec3> x;
     for (const Vec3& p : model.mesh.x) x.push_back(pose.place(p));
     for (const Vec3& p : x) vertices_.add(p), carriers_near_.add(p);
-    poses_.push_back(pose);
-    placed_.push_back(x);
+    placed_.push_back({&model, pose, x});
     return x;
   }
 
@@ -164,14 +164,19 @@ public:
   const Box& box() const { return box_; }
 
 private:
+  struct Placed {
+    const CellModel* model;
+    Pose pose;
+    std::vector<Vec3> x;
+  };
   bool inside_any(const Vec3& x) const {
-    return std::any_of(poses_.begin(), poses_.end(),
-                       [&](const Pose& p) { return p.inside(box_.nearest(x - p.centre)); });
+    return std::any_of(placed_.begin(), placed_.end(), [&](const Placed& p) {
+      return p.pose.inside(*p.model, box_.nearest(x - p.pose.centre));
+    });
   }
   Box box_;
   Bins vertices_, carriers_near_;
-  std::vector<Pose> poses_;
-  std::vector<std::vector<Vec3>> placed_;
+  std::vector<Placed> placed_;
 };
 
 void place_at_random(System& system, Packing& packing, const Case& c, std::size_t model, int count,
@@ -260,22 +265,6 @@ void place_carriers(System& system, const Packing& packing, const Case& c, std::
 
 }  // namespace
 
-std::vector<CellModel> cell_models(const Case& c) {
-  std::vector<CellModel> models;
-  for (const Cell& cell : c.cells) {
-    CellModel m;
-    m.mesh = membrane::red_cell_mesh(cell.vertices, cell_diameter, c.seed);
-    m.topology = membrane::topology(m.mesh);
-    m.area = membrane::surface_area(m.mesh);
-    m.volume = membrane::enclosed_volume(m.mesh);
-    for (const auto& e : m.topology.edges)
-      m.longest_edge = std::max(m.longest_edge, norm(m.mesh.x[static_cast<std::size_t>(e.a)] -
-                                                     m.mesh.x[static_cast<std::size_t>(e.b)]));
-    models.push_back(std::move(m));
-  }
-  return models;
-}
-
 int cell_count(const Case& c, const Cell& cell, const CellModel& model) {
   if (cell.count) return *cell.count;
   return static_cast<int>(
@@ -287,9 +276,15 @@ System place(const Case& c) {
   system.models = cell_models(c);
   Packing packing(c);
   Random random(c.seed);
-  // Regular entries first: the random ones find their places around them.
+  // Regular entries first: the random ones find their places around them. Of each the largest cells
+  // first: the small ones still fit between them.
+  std::vector<std::size_t> order(c.cells.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return system.models[a].volume > system.models[b].volume;
+  });
   for (const Placement how : {Placement::grid, Placement::random})
-    for (std::size_t m = 0; m < c.cells.size(); ++m) {
+    for (const std::size_t m : order) {
       if (c.cells[m].placement != how) continue;
       const int count = cell_count(c, c.cells[m], system.models[m]);
       if (how == Placement::grid)

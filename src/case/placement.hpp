@@ -4,17 +4,9 @@
 
 #include "base/vec3.hpp"
 #include "case/case.hpp"
-#include "membrane/mesh.hpp"
-#include "membrane/topology.hpp"
+#include "case/cell_model.hpp"
 
 namespace hemomag::case_ {
-
-/// The mesh that all cells of one [[cell]] entry share, in metres.
-struct CellModel {
-  membrane::TriangleMesh mesh;
-  membrane::Topology topology;
-  double area = 0, volume = 0, longest_edge = 0;
-};
 
 /// The starting state, in metres: whole cells and chains, not wrapped into the box.
 struct System {
@@ -30,9 +22,6 @@ struct System {
   std::vector<PlacedCell> cells;
   std::vector<PlacedCarrier> carriers;
 };
-
-/// Meshes of the [[cell]] entries.
-std::vector<CellModel> cell_models(const Case& c);
 
 /// Number of cells of an entry: its count, or the nearest to its hematocrit.
 int cell_count(const Case& c, const Cell& cell, const CellModel& model);

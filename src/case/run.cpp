@@ -65,6 +65,9 @@ int prepare(const Case& c, const RunOptions& options, Files& files) {
   files["in.lammps"] = lammps_script(c, system);
   if (const std::string copy = geometry_copy(c); !copy.empty())
     files[copy] = whole_file(c.channel.geometry);
+  for (std::size_t k = 0; k < c.cells.size(); ++k)
+    if (const std::string copy = mesh_copy(c, k); !copy.empty())
+      files[copy] = whole_file(c.cells[k].mesh);
   return done;
 }
 

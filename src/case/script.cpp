@@ -14,7 +14,6 @@ namespace {
 constexpr double skin = 1.2;  // nodes; flow carries atoms past half of it every dozen steps
 constexpr double dipole_radii =
     12;  // cut-off of the dipole forces: 0.08 % of the contact pull beyond it
-constexpr double mesh_reference = 3286;  // vertices for which contact energies are given
 constexpr int watch_every = 100;
 
 const char* layer_walls(LayerWalls walls) {
@@ -58,7 +57,8 @@ private:
   double ghost_cutoff() const {
     double reach = 0;
     for (std::size_t m = 0; m < cells_; ++m)
-      reach = std::max(reach, length(system_.models[m].longest_edge / c_.cells[m].stretch_ratio));
+      reach = std::max(reach,
+                       length(system_.models[m].longest_rest_length / c_.cells[m].stretch_ratio));
     for (const Carrier& carrier : c_.carriers)
       if (carrier.kind == CarrierKind::worm) reach = std::max(reach, length(6 * carrier.radius));
     return std::max(reach, largest_pair_cutoff()) + skin;
@@ -124,7 +124,8 @@ private:
   void cell_pairs(const char* style) {
     const auto& k = c_.contact;
     const double thermal = kBT / units_.energy();
-    const auto finer = [&](std::size_t m) { return mesh_reference / c_.cells[m].vertices; };
+    // Contact energies are given for a red cell of 3286 vertices.
+    const auto finer = [&](std::size_t m) { return system_.models[m].vertex_share; };
     for (std::size_t i = 0; i < cells_; ++i) {
       for (std::size_t j = i; j < cells_; ++j) {
         const double scale = finer(i) * finer(j) * thermal;

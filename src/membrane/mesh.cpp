@@ -42,24 +42,17 @@ std::vector<Vec3> scattered_on_sphere(int count, std::mt19937_64& random) {
 }
 
 /// Map the unit sphere onto the cell so that equal areas stay equal.
-std::vector<Vec3> map_to_cell(const std::vector<Vec3>& sphere, double diameter) {
-  constexpr int rows = 2000;
-  std::vector<double> fraction(rows + 1);  // of the area above cos t = 1 - 2 k/rows
-  for (int k = 0; k <= rows; ++k) fraction[k] = rest_area_fraction_above(1 - 2.0 * k / rows);
+std::vector<Vec3> map_to_cell(const std::vector<Vec3>& sphere, const RestShape& shape) {
+  const CosineOfAreaFraction cosine(shape);
   std::vector<Vec3> cell;
-  for (const Vec3& p : sphere) {
-    const double wanted = 0.5 * (1 - p.z);
-    const auto next = std::lower_bound(fraction.begin() + 1, fraction.end() - 1, wanted);
-    const double within = (wanted - next[-1]) / (next[0] - next[-1]);
-    const double w = 1 - 2.0 * (static_cast<double>(next - fraction.begin()) - 1 + within) / rows;
-    cell.push_back(rest_point(std::acos(std::clamp(w, -1.0, 1.0)), std::atan2(p.y, p.x), diameter));
-  }
+  for (const Vec3& p : sphere)
+    cell.push_back(rest_point(shape, std::acos(cosine(0.5 * (1 - p.z))), std::atan2(p.y, p.x)));
   return cell;
 }
 
 /// A step of Lloyd's method: every vertex to the area-weighted centroid of its triangles, back on
 /// the surface.
-void lloyd_step(TriangleMesh& mesh, double diameter) {
+void lloyd_step(TriangleMesh& mesh, const RestShape& shape) {
   std::vector<Vec3> moment(mesh.x.size());
   std::vector<double> weight(mesh.x.size(), 0);
   for (const auto& t : mesh.triangles) {
@@ -71,7 +64,7 @@ void lloyd_step(TriangleMesh& mesh, double diameter) {
     }
   }
   for (std::size_t v = 0; v < mesh.x.size(); ++v)
-    mesh.x[v] = project_to_rest_shape(moment[v] / weight[v], diameter);
+    mesh.x[v] = project_to_rest_shape(shape, moment[v] / weight[v]);
 }
 
 /// A relaxation step of springs along the surface. The rest length of a triangle's sides is its own
@@ -79,7 +72,7 @@ void lloyd_step(TriangleMesh& mesh, double diameter) {
 /// they become equal.
 /// @param equalise  weight of the mean edge of the mesh, in [0, 1]
 void spring_step(TriangleMesh& mesh, const std::vector<int>& valences, double equalise,
-                 double diameter) {
+                 const RestShape& shape) {
   constexpr double step = 0.7;  // of the way to the mean of what the springs of a vertex ask for
   std::vector<double> mean_side;
   double mean_edge = 0;
@@ -102,16 +95,16 @@ void spring_step(TriangleMesh& mesh, const std::vector<int>& valences, double eq
     }
   }
   for (std::size_t v = 0; v < mesh.x.size(); ++v)
-    mesh.x[v] = project_to_rest_shape(mesh.x[v] + (step / valences[v]) * pull[v], diameter);
+    mesh.x[v] = project_to_rest_shape(shape, mesh.x[v] + (step / valences[v]) * pull[v]);
 }
 
 /// Springs and flips in turn, then springs alone.
-void relax(TriangleMesh& mesh, Triangulation& net, double equalise, double diameter) {
+void relax(TriangleMesh& mesh, Triangulation& net, double equalise, const RestShape& shape) {
   constexpr int steps = 100, steps_with_flips = 70;
   for (int i = 0; i < steps; ++i) {
     if (i < steps_with_flips) net.flip_to_even_valences(mesh.x);
     mesh.triangles = net.triangles();
-    spring_step(mesh, net.valences(), equalise, diameter);
+    spring_step(mesh, net.valences(), equalise, shape);
   }
 }
 
@@ -193,29 +186,29 @@ MeshQuality quality(const TriangleMesh& mesh) {
   return q;
 }
 
-TriangleMesh red_cell_mesh(int vertices, double diameter, std::uint64_t seed) {
-  if (vertices < min_red_cell_vertices)
+TriangleMesh evened_mesh(const RestShape& shape, int vertices, std::uint64_t seed) {
+  if (vertices < min_mesh_vertices)
     throw Error("mesh: vertices = " + std::to_string(vertices) + ", need at least " +
-                std::to_string(min_red_cell_vertices));
-  if (!(diameter > 0 && std::isfinite(diameter)))
-    throw Error("mesh: diameter = " + std::to_string(diameter) + ", need a positive length");
+                std::to_string(min_mesh_vertices));
+  if (!(shape.diameter > 0 && std::isfinite(shape.diameter)))
+    throw Error("mesh: diameter = " + std::to_string(shape.diameter) + ", need a positive length");
   std::mt19937_64 random(seed);
   constexpr int draws = 20, lloyd_steps = 50, least_rounds = 3, most_rounds = 8;
   for (int draw = 0; draw < draws; ++draw) {
     const std::vector<Vec3> sphere = scattered_on_sphere(vertices, random);
     Triangulation net(vertices, triangulate_sphere(sphere));
-    TriangleMesh mesh{map_to_cell(sphere, diameter), net.triangles()};
+    TriangleMesh mesh{map_to_cell(sphere, shape), net.triangles()};
     for (int i = 0; i < lloyd_steps; ++i) {
       net.flip_to_delaunay(mesh.x);
       mesh.triangles = net.triangles();
-      lloyd_step(mesh, diameter);
+      lloyd_step(mesh, shape);
     }
     double equalise = 0.25;
     for (int round = 1; round <= most_rounds; ++round) {
-      relax(mesh, net, equalise, diameter);
+      relax(mesh, net, equalise, shape);
       if (round < least_rounds) continue;
       TriangleMesh result = mesh;
-      offset_to_volume(result, rest_volume(diameter));
+      offset_to_volume(result, rest_volume(shape));
       if (good(quality(result))) return result;
       equalise *= 0.5;  // the last bad triangles need more freedom of size
     }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/vec3.hpp"
+#include "membrane/rest_shape.hpp"
 
 namespace hemomag::membrane {
 
@@ -35,7 +36,7 @@ double surface_area(const TriangleMesh& mesh);
 /// Positive when the triangles are oriented outward.
 double enclosed_volume(const TriangleMesh& mesh);
 
-/// What red_cell_mesh promises for any count and seed.
+/// What evened_mesh promises for any count and seed.
 struct MeshGates {
   static constexpr double mean_edge_ratio = 1.15;  ///< at most
   static constexpr double worst_edge_ratio = 1.6;  ///< at most
@@ -43,18 +44,23 @@ struct MeshGates {
   static constexpr int min_valence = 5, max_valence = 7;
 };
 
-inline constexpr int min_red_cell_vertices = 162;
+inline constexpr int min_mesh_vertices = 162;
 
-/// A red cell at rest (rest_shape.hpp): axis of symmetry along z, centred at the origin, `vertices`
+/// A cell at rest (rest_shape.hpp): axis of symmetry along z, centred at the origin, `vertices`
 /// of them exactly, irregular and within MeshGates. The facets follow the smooth surface in the
-/// mean, so that the enclosed volume is rest_volume(diameter): vertices stand off it along the
-/// normal by about mean curvature x edge^2 / 8 (17 nm at the rim at 642 vertices, 3 nm at 3286).
-/// The area is then 0.4 % above rest_area at 642 vertices, 0.1 % at 3286. The same arguments give
-/// the same mesh.
-/// @param vertices  at least min_red_cell_vertices
-/// @param diameter  D0, in the unit wanted
-/// @throws hemomag::Error when an argument is out of range or the gates are not reached
+/// mean, so that the enclosed volume is rest_volume(shape): vertices stand off it along the
+/// normal by about mean curvature x edge^2 / 8 (on a red cell 17 nm at the rim at 642 vertices, 3
+/// nm at 3286). The area is then 0.4 % above rest_area at 642 vertices, 0.1 % at 3286. The same
+/// arguments give the same mesh.
+/// @param vertices  at least min_mesh_vertices
+/// @throws hemomag::Error when an argument is out of range or the gates are not reached, as on
+/// spheroids thinner than a fifth of their diameter with few vertices
 /// Cost: about 0.1 ms a vertex.
-TriangleMesh red_cell_mesh(int vertices, double diameter, std::uint64_t seed);
+TriangleMesh evened_mesh(const RestShape& shape, int vertices, std::uint64_t seed);
+
+/// evened_mesh of the biconcave cell of diameter D0.
+inline TriangleMesh red_cell_mesh(int vertices, double diameter, std::uint64_t seed) {
+  return evened_mesh(red_cell_shape(diameter), vertices, seed);
+}
 
 }  // namespace hemomag::membrane

@@ -159,8 +159,6 @@ TEST_F(BadInput, Contradictions) {
 TEST_F(BadInput, FeaturesOfLaterVersions) {
   refused(changed("B0 = \"0.05 T\"", "field = \"rotating\""),
           "case.toml:13:9: magnetic.field:", "not available");
-  refused(changed("[[carrier]]", "[[cell]]\nkind = \"platelet\"\n[[carrier]]"),
-          "case.toml:10:8: cell.kind:", "not available");
   refused(changed("[run]", "[analysis]\nlayer = \"measured\"\n[run]"),
           "case.toml:15:9: analysis.layer:", "not available");
   refused(changed("[[carrier]]", "[[cell]]\nplacement = \"compress\"\n[[carrier]]"),
@@ -271,6 +269,104 @@ TEST_F(BadInput, Surfaces) {
   refused(with(file + "diameter = \"5 um\"\n"), "case.toml:7:12: channel.diameter:", "tube");
   // A closed vessel has no way through along which a mean velocity could be held.
   refused(with(file), "case.toml:2:1: channel: open ends", "along y");
+}
+
+TEST_F(BadInput, KindsOfCells) {
+  const auto with = [](const std::string& lines) {
+    return changed("[[carrier]]", "[[cell]]\n" + lines + "\n[[carrier]]");
+  };
+  const std::string platelet = "kind = \"platelet\"\ncount = 1\n",
+                    white = "kind = \"white\"\ncount = 1\n";
+  refused(with("kind = \"virus\""), "case.toml:10:8: cell.kind:", "\"platelet\", \"white\"");
+  refused(with("kind = \"platelet\""), "case.toml:9:1: cell.count:", "is missing");
+  refused(with("kind = \"white\""), "case.toml:9:1: cell.count:", "is missing");
+  refused(with(platelet + "vertices = 161"), "case.toml:12:12: cell.vertices:", "at least 162");
+  refused(with(platelet + "diameter = \"0 um\""),
+          "case.toml:12:12: cell.diameter:", "out of range");
+  refused(with(platelet + "diameter = 2.5"), "case.toml:12:12: cell.diameter:", "without a unit");
+  refused(with(platelet + "thickness = \"3 um\""),
+          "case.toml:12:13: cell.thickness:", "at most the diameter, 2.5 um");
+  refused(with(platelet + "thickness = \"0.4 um\""),
+          "case.toml:12:13: cell.thickness:", "at least 0.5 um");
+  refused(with(platelet + "diameter = \"6 um\""),
+          "case.toml:12:12: cell.diameter:", "leaves the thickness at 1 um");
+  refused(with(platelet + "stress_free = \"sphere\""),
+          "case.toml:12:15: cell.stress_free:", "red cells");
+  refused(with(white + "thickness = \"1 um\""), "case.toml:12:13: cell.thickness:", "platelets");
+  refused(with("diameter = \"8 um\"\ncount = 1"), "case.toml:10:12: cell.diameter:", "7.82 um");
+  refused(with("thickness = \"2 um\"\ncount = 1"), "case.toml:10:13: cell.thickness:", "platelets");
+  refused(with("mesh_unit = \"1 mm\"\ncount = 1"),
+          "case.toml:10:13: cell.mesh_unit:", "needs mesh");
+  refused(with("stress_free = \"cube\"\ncount = 1"),
+          "case.toml:10:15: cell.stress_free:", "\"sphere\"");
+  refused(with(white + "vertices = 162"), "case.toml:9:1: cell: cell size", "less than the box");
+  refused(with("stress_free = \"sphere\"\nstretch_ratio = 0.85\ncount = 1\nvertices = 642"),
+          "case.toml:9:1: cell: prestress", "l/l_max");
+}
+
+TEST_F(BadInput, SurfacesOfCells) {
+  const auto with = [](const std::string& lines) {
+    return changed("[[carrier]]", "[[cell]]\ncount = 1\n" + lines + "\n[[carrier]]");
+  };
+  const auto surface = [&](const std::string& text) {
+    std::ofstream(directory_ / "cell.off") << text;
+  };
+  const std::string points = "1 1 1\n3 1 1\n1 3 1\n1 1 3\n";
+  const std::string faces = "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+  const std::string file = "mesh = \"cell.off\"";
+  const std::string at = "case.toml:11:8: cell.mesh:";
+  refused(with("mesh = 3"), at, "a string");
+  refused(with(file), at, "cell.off: cannot be read");
+  refused(with("mesh = \".\""), at, "cannot be read");
+  surface("OFF\nfour\n");
+  refused(with(file), at, "cell.off");
+  surface("OFF\n4 3 0\n" + points + "3 0 2 1\n3 0 1 3\n3 0 3 2\n");
+  refused(with(file), at, "cell.off");
+  surface("OFF\n8 8 0\n" + points + "6 1 1\n8 1 1\n6 3 1\n6 1 3\n" + faces +
+          "3 4 6 5\n3 4 5 7\n3 4 7 6\n3 5 6 7\n");
+  refused(with(file), at, "2 pieces");
+  surface("OFF\n4 4 0\n" + points + faces);
+  refused(with(file + "\nvertices = 642"), "case.toml:12:12: cell.vertices:", "excludes mesh");
+  refused(with(file + "\ndiameter = \"3 um\""), "case.toml:12:12: cell.diameter:", "excludes mesh");
+  refused(with(file + "\nthickness = \"3 um\""),
+          "case.toml:12:13: cell.thickness:", "excludes mesh");
+  refused(with(file + "\nmesh_unit = \"1 s\""), "case.toml:12:13: cell.mesh_unit:", "length");
+  refused(with(file + "\nstress_free = \"sphere\""),
+          "case.toml:12:15: cell.stress_free:", "without a mesh");
+  // A unit that was mistaken: too large for the box, and for the nodes.
+  const Outcome outcome = run(with(file + "\nmesh_unit = \"1 mm\""));
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_NE(outcome.error.find("case.toml:9:1: cell: cell size"), std::string::npos)
+      << outcome.error;
+  EXPECT_NE(outcome.error.find("see cell.diameter or cell.mesh_unit"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(directory_ / "result"));
+}
+
+TEST_F(BadInput, ASurfaceOfOnesOwnRunsAndItsDirectoryIsTheRun) {
+  // A cube of 2 um, each face a fan about its middle: 14 vertices.
+  std::filesystem::create_directories(directory_ / "shapes");
+  std::ofstream(directory_ / "shapes" / "cube.off")
+      << "OFF\n14 24 0\n0 0 0\n2 0 0\n2 2 0\n0 2 0\n0 0 2\n2 0 2\n2 2 2\n0 2 2\n"
+         "1 1 0\n1 1 2\n1 0 1\n1 2 1\n0 1 1\n2 1 1\n"
+         "3 0 3 8\n3 3 2 8\n3 2 1 8\n3 1 0 8\n3 4 5 9\n3 5 6 9\n3 6 7 9\n3 7 4 9\n"
+         "3 0 1 10\n3 1 5 10\n3 5 4 10\n3 4 0 10\n3 2 3 11\n3 3 7 11\n3 7 6 11\n3 6 2 11\n"
+         "3 0 4 12\n3 4 7 12\n3 7 3 12\n3 3 0 12\n3 1 2 13\n3 2 6 13\n3 6 5 13\n3 5 1 13\n";
+  const Outcome first = run(
+      changed("[[carrier]]",
+              "[[cell]]\ncount = 2\nmesh = \"shapes/cube.off\"\nkind = \"white\"\n[[carrier]]"));
+  EXPECT_EQ(first.code, 0) << first.error;
+  const auto read = [&](const std::string& name) {
+    std::ifstream file(directory_ / name);
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  EXPECT_EQ(read("result/cell.off"), read("shapes/cube.off"));
+  EXPECT_NE(read("result/cells.data").find("31 atoms"), std::string::npos) << "2 x 14 and 3";
+  const auto data = read("result/cells.data");
+  std::filesystem::remove_all(directory_ / "shapes");
+  std::filesystem::rename(directory_ / "result", directory_ / "kept");
+  const Outcome again = run_file("kept/case.toml");
+  EXPECT_EQ(again.code, 0) << again.error;
+  EXPECT_EQ(read("result/cells.data"), data);
 }
 
 TEST_F(BadInput, Overrides) {

@@ -85,6 +85,22 @@ Case coarse() {
   return c;
 }
 
+TEST(Keys, TheDefaultsOfARedCellAreThoseOfTheTable) {
+  const Cell red = standard_cell(CellKind::rbc);
+  const auto number = [](const char* name) { return std::stod(find_key("cell", name)->fallback); };
+  const auto amount = [](const char* name) {
+    const Key* key = find_key("cell", name);
+    return quantity(key->fallback, *key->dimension);
+  };
+  EXPECT_EQ(red.vertices, number("vertices"));
+  EXPECT_DOUBLE_EQ(red.shear_modulus, amount("shear_modulus"));
+  EXPECT_DOUBLE_EQ(red.bending_modulus, amount("bending_modulus"));
+  EXPECT_DOUBLE_EQ(red.diameter, cell_diameter);
+  EXPECT_DOUBLE_EQ(standard_cell(CellKind::platelet).thickness, amount("thickness"));
+  for (const CellKind kind : {CellKind::platelet, CellKind::white})
+    EXPECT_DOUBLE_EQ(standard_cell(kind).shear_modulus, 10 * red.shear_modulus);
+}
+
 TEST(LatticeUnits, MatchTheTabulatedCoarsePreset) {
   const Case c = coarse();
   const auto u = lattice_units(c);
@@ -212,6 +228,47 @@ TEST(Tube, HematocritIsOfTheTubesVolume) {
   char text[64];
   std::snprintf(text, sizeof text, "hematocrit %.4g", made);
   EXPECT_NE(line(make_card(c, models), "cells").value.find(text), std::string::npos);
+}
+
+TEST(Card, SaysHowFarAStressFreeNetworkIsDrawn) {
+  Case c = coarse();
+  c.cells.emplace_back();
+  c.cells[0].count = 1;
+  const auto prestress = [&](double ratio) {
+    c.cells[0].stretch_ratio = ratio;
+    return line(make_card(c, cell_models(c)), "prestress");
+  };
+  for (const auto& l : make_card(c, cell_models(c)).lines) EXPECT_NE(l.name, "prestress");
+  c.cells[0].stress_free = StressFree::sphere;
+  // On the spheroid of 0.9 the rim is stretched by 1.157 and no edge by more
+  // (stress_free_shape.md).
+  const CardLine usual = prestress(1 / 2.2);
+  std::printf("prestress: %s\n", usual.value.c_str());
+  EXPECT_EQ(usual.verdict, Verdict::fine);
+  EXPECT_NEAR(std::stod(usual.value.substr(usual.value.find("l_max") + 5)), 1.157 / 2.2, 0.015);
+  EXPECT_NEAR(std::stod(usual.value.substr(usual.value.find("at most") + 7)), 0.157, 0.03);
+  EXPECT_EQ(prestress(0.7).verdict, Verdict::doubtful);
+  EXPECT_EQ(prestress(0.85).verdict, Verdict::refused) << "0.97 of l_max";
+}
+
+TEST(Card, RefusesACellLargerThanTheBox) {
+  Case c = coarse();
+  c.cells.push_back(standard_cell(CellKind::white));
+  c.cells[0].count = 1, c.cells[0].vertices = 162;
+  EXPECT_FALSE(make_card(c, cell_models(c)).refused());
+  c.cells[0].diameter = 37e-6;  // the longest side is 36 um
+  EXPECT_EQ(line(make_card(c, cell_models(c)), "cell size").verdict, Verdict::refused);
+}
+
+TEST(CellModels, AVertexOfAPlateletStandsForAsMuchAreaAsOfARedCell) {
+  Case c = coarse();
+  c.cells.push_back(standard_cell(CellKind::platelet));
+  c.cells[0].count = 1;
+  const auto models = cell_models(c);
+  // A vertex of either stands for (0.22 um)^2: the same energy a pair to 3 %.
+  EXPECT_NEAR(models[0].vertex_share, 1, 0.06);
+  c.cells[0].vertices = 600;
+  EXPECT_NEAR(cell_models(c)[0].vertex_share, models[0].vertex_share / 2, 1e-12);
 }
 
 TEST(Tube, FlowIsEstimatedByPoiseuille) {

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "analysis/inside.hpp"
+#include "base/error.hpp"
 #include "case/case_file.hpp"
 #include "case/placement.hpp"
 #include "case/vessel.hpp"
@@ -97,6 +98,133 @@ TEST(Placement, WormsAreStraightChainsOutsideCells) {
       for (const auto& cell : system.cells)
         for (const Vec3& x : cell.x) EXPECT_GE(norm(nearest(x - p, c)), 0.56e-6);
   }
+}
+
+/// An ellipsoid off its file's origin, in units of 2 um, as a user's own surface.
+std::string write_surface(const membrane::TriangleMesh& mesh) {
+  const auto path = std::filesystem::temp_directory_path() /
+                    ("hemomag_cell_" + std::to_string(getpid()) + ".off");
+  std::ofstream file(path);
+  file.precision(17);
+  file << "OFF\n" << mesh.x.size() << " " << mesh.triangles.size() << " 0\n";
+  for (const Vec3& p : mesh.x) file << p.x + 7 << " " << p.y - 3 << " " << p.z << "\n";
+  for (const auto& t : mesh.triangles) file << "3 " << t[0] << " " << t[1] << " " << t[2] << "\n";
+  return path.string();
+}
+
+TEST(Placement, CellsOfEveryKindKeepApartAndCarriersOutside) {
+  auto c = case_::read_case(HEMOMAG_SOURCE_DIR "/examples/margination_demo.toml", {});
+  const auto path = write_surface(membrane::evened_mesh(membrane::spheroid(2, 1.2), 200, 1));
+  auto& red = c.cells[0];
+  red.hematocrit.reset(), red.count = 3;
+  auto platelet = case_::standard_cell(case_::CellKind::platelet);
+  platelet.count = 12;
+  auto white = case_::standard_cell(case_::CellKind::white);
+  white.count = 1, white.vertices = 1442;
+  auto own = case_::standard_cell(case_::CellKind::rbc);
+  own.hematocrit.reset(), own.count = 4;
+  own.mesh = path, own.mesh_unit = 2e-6, own.surface = case_::read_cell_surface(path);
+  own.vertices = 200;
+  c.cells = {red, platelet, white, own};
+  std::filesystem::remove(path);
+  const auto system = case_::place(c);
+  ASSERT_EQ(system.cells.size(), 20u);
+  double closest = 1, plate = 1, carrier = 1;
+  std::vector<analysis::SurfaceTriangle> triangles;
+  std::vector<Vec3> points;
+  std::int64_t first = 0;
+  for (std::size_t a = 0; a < system.cells.size(); ++a) {
+    const auto& cell = system.cells[a];
+    const auto& model = system.models[cell.model];
+    ASSERT_EQ(cell.x.size(), model.mesh.x.size());
+    EXPECT_EQ(static_cast<int>(cell.x.size()), c.cells[cell.model].vertices);
+    for (const Vec3& x : cell.x) {
+      plate = std::min({plate, x.z, c.channel.size[2] - x.z});
+      for (std::size_t b = 0; b < a; ++b)
+        for (const Vec3& y : system.cells[b].x)
+          closest = std::min(closest, norm(nearest(x - y, c)));
+      for (const auto& p : system.carriers)
+        carrier = std::min(carrier, norm(nearest(x - p.beads[0], c)));
+    }
+    for (const auto& t : model.mesh.triangles) {
+      analysis::SurfaceTriangle s;
+      for (std::size_t k = 0; k < 3; ++k) {
+        s.x[k] = cell.x[static_cast<std::size_t>(t[k])];
+        s.tag[k] = first + t[k];
+      }
+      triangles.push_back(s);
+    }
+    first += static_cast<std::int64_t>(cell.x.size());
+  }
+  EXPECT_GE(closest, 0.40e-6);
+  EXPECT_GE(plate, 0.3e-6);
+  EXPECT_GE(carrier, 0.56e-6);
+  // Every carrier is outside every cell, and one vertex of a cell is inside none of the others (its
+  // own passes through it, so it is moved out along the normal, from the centre).
+  for (const auto& p : system.carriers) points.push_back(p.beads[0]);
+  for (const auto& cell : system.cells) {
+    Vec3 centre;
+    for (const Vec3& x : cell.x) centre += x / static_cast<double>(cell.x.size());
+    Vec3 farthest = centre;
+    for (const Vec3& x : cell.x)
+      if (norm(x - centre) > norm(farthest - centre)) farthest = x;
+    points.push_back(farthest + (0.05e-6 / norm(farthest - centre)) * (farthest - centre));
+  }
+  for (Vec3& p : points)
+    for (std::size_t d = 0; d < 2; ++d)
+      p[d] -= c.channel.size[d] * std::floor(p[d] / c.channel.size[d]);
+  const analysis::ChannelBox box{{c.channel.size[0], c.channel.size[1], c.channel.size[2]}, false};
+  for (const int times : analysis::enclosure(points, triangles, box)) EXPECT_EQ(times, 0);
+}
+
+TEST(Placement, ABodyInsideAnotherIsNotAPlace) {
+  // A white cell is wide enough for a platelet that touches none of its vertices: only the shapes'
+  // own inside tests keep it out. In a box just larger than the white cell there is no other place.
+  auto c = case_::read_case(HEMOMAG_SOURCE_DIR "/examples/margination_demo.toml", {});
+  c.channel.size = {11e-6, 11e-6, 11e-6};
+  c.carriers.clear();
+  auto white = case_::standard_cell(case_::CellKind::white);
+  white.count = 1, white.vertices = 642, white.placement = case_::Placement::grid;
+  auto platelet = case_::standard_cell(case_::CellKind::platelet);
+  platelet.count = 1, platelet.vertices = 162, platelet.diameter = 7e-6, platelet.thickness = 7e-6;
+  platelet.placement = case_::Placement::grid;  // one place: the middle of the box
+  c.cells = {platelet, white};
+  EXPECT_THROW(case_::place(c), Error);
+  c.cells = {white};
+  EXPECT_EQ(case_::place(c).cells.size(), 1u);
+}
+
+TEST(CellModels, KnowTheirInsideTheirSizeAndWhatAVertexStandsFor) {
+  auto c = case_::read_case(HEMOMAG_SOURCE_DIR "/examples/margination_demo.toml", {});
+  const auto path = write_surface(membrane::evened_mesh(membrane::spheroid(2, 1.2), 200, 1));
+  auto platelet = case_::standard_cell(case_::CellKind::platelet);
+  auto white = case_::standard_cell(case_::CellKind::white);
+  white.vertices = 642;
+  case_::Cell own;
+  own.mesh = path, own.mesh_unit = 2e-6, own.surface = case_::read_cell_surface(path);
+  own.vertices = 200;
+  std::filesystem::remove(path);
+  c.cells = {c.cells[0], platelet, white, own};
+  const auto models = case_::cell_models(c);
+  const double um = 1e-6;
+  const auto inside = [&](std::size_t m, double x, double y, double z) {
+    return models[m].contains({x * um, y * um, z * um});
+  };
+  EXPECT_TRUE(inside(0, 2.7, 0, 1.0) && !inside(0, 0, 0, 0.5)) << "the dimple is outside";
+  EXPECT_TRUE(inside(1, 1.2, 0, 0) && !inside(1, 1.3, 0, 0));
+  EXPECT_TRUE(inside(1, 0, 0, 0.45) && !inside(1, 0, 0, 0.55));
+  EXPECT_TRUE(inside(2, 0, 0, 4.9) && !inside(2, 3, 3, 3));
+  EXPECT_TRUE(inside(3, 1.9, 0, 0) && !inside(3, 0, 0, 1.3)) << "about its centre, in its unit";
+  // The vertices stand off the shape by edge^2/8 times the mean curvature, under 3 % of the size.
+  const double reach[] = {3.91, 1.25, 5, 2};
+  for (std::size_t m = 0; m < 4; ++m) {
+    EXPECT_NEAR(models[m].reach, reach[m] * um, 0.03 * reach[m] * um) << m;
+    EXPECT_GT(models[m].volume, 0);
+    EXPECT_EQ(models[m].prestress.largest, 0) << "springs at rest in the mesh";
+  }
+  EXPECT_DOUBLE_EQ(models[0].vertex_share, 3286.0 / 642);
+  EXPECT_NEAR(models[2].vertex_share, 100 * M_PI / 134.09 * 3286 / 642, 1e-3);
+  EXPECT_NEAR(models[2].volume, M_PI / 6 * 1e-15, 1e-9 * 1e-15) << "10 um across";
 }
 
 /// The tube of examples/tube_flow.toml with more in it.
