@@ -153,4 +153,37 @@ TEST(MembraneRanks, TheVirialIsThatOfTheForcesAndTheForcesAreTheEnergysSlope) {
   EXPECT_NEAR(slope, -work, 1e-7 * size);
 }
 
+TEST(MembraneRanks, NewCoefficientsBetweenRunsCountAndExponentsMayDiffer) {
+  const case_::Case c = still_cells(1);
+  const case_::System system = stirred(c);
+  test::run_case_on(MPI_COMM_WORLD, c, system, [&](lammps::Host& host) {
+    auto* atom = host.lammps().atom;
+    const auto forces = [&](const std::string& low_types, const std::string& high_types) {
+      host.command("bond_coeff 1*900 " + low_types);
+      host.command("bond_coeff 901* " + high_types);
+      host.command("run 0");
+      std::vector<Vec3> mine(642), all(642);
+      for (int i = 0; i < atom->nlocal; ++i)
+        mine[static_cast<std::size_t>(atom->tag[i] - 1)] = {atom->f[i][0], atom->f[i][1],
+                                                            atom->f[i][2]};
+      MPI_Allreduce(&mine[0].x, &all[0].x, 3 * 642, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+      return all;
+    };
+    host.command("unfix watch");  // the springs are alone: no rest volume is meant
+    host.command("angle_coeff * 0 1 0 1 0 1 0 1");
+    host.command("dihedral_coeff * 0 0");
+    const std::string none = "1 0.45 4 1e-30 2 0 0", square = "1 0.45 4 0.01 2 0 0",
+                      twice = "1 0.45 4 0.02 2 0 0", steep = "1 0.45 4 0.01 2.7 0 0";
+    const auto low = forces(square, none), high = forces(none, steep);
+    const auto both = forces(square, steep), doubled = forces(twice, none);
+    double largest = 0;
+    for (const Vec3& f : both) largest = std::max(largest, norm(f));
+    EXPECT_GT(largest, 0);
+    for (std::size_t k = 0; k < 642; ++k) {
+      EXPECT_LT(norm(both[k] - low[k] - high[k]), 1e-13 * largest);
+      EXPECT_LT(norm(doubled[k] - 2 * low[k]), 1e-13 * largest);
+    }
+  });
+}
+
 }  // namespace
