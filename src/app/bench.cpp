@@ -3,32 +3,18 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <iterator>
 
 #include <mpi.h>
 #include <nlohmann/json.hpp>
 
+#include "app/timing.hpp"
 #include "base/aligned.hpp"
 #include "solver/bricks.hpp"
 #include "solver/fluid_solver.hpp"
 
 namespace hemomag::app {
 namespace {
-
-constexpr int repetitions = 5;
-
-/// Seconds of `work` between barriers.
-template <class Work> double timed(Work work) {
-  MPI_Barrier(MPI_COMM_WORLD);
-  const double start = MPI_Wtime();
-  work();
-  MPI_Barrier(MPI_COMM_WORLD);
-  return MPI_Wtime() - start;
-}
-
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-  return values[values.size() / 2];
-}
 
 /// to = 2 from: one array read, one written, which is first fetched. (A plain copy may become a
 /// call that bypasses the caches, which the fluid cannot.)
@@ -127,17 +113,25 @@ void bench_fluid(bool json) {
 }  // namespace
 
 int bench(const std::vector<std::string>& names, bool json) {
+  struct Benchmark {
+    const char* name;
+    void (*run)(bool json);
+  };
+  constexpr Benchmark all[] = {{"fluid", bench_fluid}, {"membrane", bench_membrane}};
   for (const std::string& name : names)
-    if (name != "fluid") {
+    if (std::none_of(std::begin(all), std::end(all),
+                     [&](const auto& b) { return name == b.name; })) {
       int rank = 0;
       MPI_Comm_rank(MPI_COMM_WORLD, &rank);
       if (rank == 0)
         std::fprintf(stderr,
-                     "hemomag bench: %s is not available in this version; accepted: fluid\n",
+                     "hemomag bench: %s is not available in this version; accepted: fluid, "
+                     "membrane\n",
                      name.c_str());
       return 2;
     }
-  bench_fluid(json);
+  for (const Benchmark& b : all)
+    if (names.empty() || std::find(names.begin(), names.end(), b.name) != names.end()) b.run(json);
   return 0;
 }
 

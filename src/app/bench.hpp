@@ -9,4 +9,8 @@ namespace hemomag::app {
 /// @return 0, or 2 if a name is unknown
 int bench(const std::vector<std::string>& names, bool json);
 
+/// Bond, angle and dihedral forces of 40 cells of 3286 vertices through LAMMPS, in ms by style, a
+/// line on rank 0. Collective.
+void bench_membrane(bool json);
+
 }  // namespace hemomag::app

@@ -89,7 +89,7 @@ int parse_and_run(int argc, char** argv) {
   auto* validation =
       app.add_subcommand("validate", "compare with theory; all validations, or the named ones");
   validation->add_option("NAME", names, "validations to run");
-  auto* speed = app.add_subcommand("bench", "measure speed: fluid");
+  auto* speed = app.add_subcommand("bench", "measure speed: fluid, membrane");
   speed->add_option("NAME", names, "benchmarks to run");
   for (auto* command : {validation, speed})
     command->add_flag("--json", json, "one JSON object a line");

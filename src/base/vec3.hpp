@@ -6,6 +6,7 @@ namespace hemomag {
 
 /// A vector of three doubles with the layout of LAMMPS's x[i][0..2].
 struct Vec3 {
+  using Number = double;  ///< laws that also run on SIMD vectors are templates on it
   double x = 0, y = 0, z = 0;
 
   constexpr double& operator[](std::size_t d) { return d == 0 ? x : d == 1 ? y : z; }

@@ -13,6 +13,7 @@
 #include "neighbor.h"
 #include "utils.h"
 
+#include "lammps/compat.hpp"
 #include "lammps/orient_triangles.hpp"
 #include "membrane/area_volume.hpp"
 
@@ -71,12 +72,11 @@ void AngleHemoMembrane::init_style() {
                               " triangles that were listed inside out\n");
   }
   oriented_ = true;
-  stale_ = true;
+  topology_.forget();
 }
 
 /// Local triangles, grouped by the cells this rank holds a part of. With every new neighbour list.
 void AngleHemoMembrane::rebuild() {
-  stale_ = false;
   const int n = neighbor->nanglelist;
   int** list = neighbor->anglelist;
   std::vector<int> ids(static_cast<std::size_t>(n));
@@ -93,10 +93,13 @@ void AngleHemoMembrane::rebuild() {
     const int molecule = static_cast<int>(atom->molecule[list[t][1]]);
     const auto cell =
         static_cast<std::size_t>(std::lower_bound(ids.begin(), ids.end(), molecule) - ids.begin());
-    triangles_[static_cast<std::size_t>(t)] = {list[t][0], list[t][1], list[t][2], list[t][3],
-                                               cell,       {},         {}};
+    triangles_[static_cast<std::size_t>(t)] = {list[t][0], list[t][1], list[t][2],
+                                               list[t][3], cell,       {}};
     cell_type_[cell] = list[t][3];
   }
+  std::stable_sort(triangles_.begin(), triangles_.end(),
+                   [](const Triangle& a, const Triangle& b) { return a.cell < b.cell; });
+  check_constants();
   // The images are agreed on with the same plan, with a width of four; the sums of a step have two.
   exchange_.rebuild(world, ids, 4);
   agree_on_images();
@@ -105,6 +108,30 @@ void AngleHemoMembrane::rebuild() {
     const auto& k = coefficients_[cell_type_[c]];
     cells_[c] = {ids[c], 0, 0, k[A_t0], k[V_0], exchange_.mine(c)};
   }
+  fill_list();
+}
+
+/// A cell has one area and one volume: its triangles must agree on what these cost.
+void AngleHemoMembrane::check_constants() const {
+  for (const auto& t : triangles_)
+    for (const Column column : {k_a, A_t0, k_v, V_0}) {
+      const int first = cell_type_[t.cell];
+      if (coefficients_[t.type][column] == coefficients_[first][column]) continue;
+      hemomag::lammps::fail_here(lmp, FLERR,
+                                 "angle_style hemo/membrane: types " + std::to_string(first) +
+                                     " and " + std::to_string(t.type) +
+                                     " are of one cell, and need the same k_a, A_t0, k_v and V_0");
+    }
+}
+
+void AngleHemoMembrane::fill_list() {
+  list_.clear();
+  for (std::size_t n = 0; n < triangles_.size(); ++n) {
+    const auto& t = triangles_[n];
+    if (n == 0 || t.cell != triangles_[n - 1].cell) list_.start_cell();
+    list_.add({t.i, t.j, t.k}, t.unwrap, coefficients_[t.type][k_d], coefficients_[t.type][A_k0]);
+  }
+  list_.finish();
 }
 
 /// The shift that puts a triangle into its cell's own image, from the image flags of its owned
@@ -138,14 +165,12 @@ void AngleHemoMembrane::agree_on_images() {
 
 /// Area and volume of every cell, summed over ranks.
 void AngleHemoMembrane::sum_cells() {
-  const auto* x = reinterpret_cast<const Vec3*>(atom->x[0]);
-  std::fill(sums_.begin(), sums_.end(), 0.0);
-  for (auto& t : triangles_) {
-    t.twice_area = membrane::twice_area_vector(x[t.i], x[t.j], x[t.k]);
-    sums_[2 * t.cell] += 0.5 * norm(t.twice_area);
-    // On a closed surface the sum of a point of each triangle times its area vector over three is
-    // the volume.
-    sums_[2 * t.cell + 1] += dot(x[t.j] + t.unwrap, t.twice_area) / 6;
+  const std::span<const Vec3> x{reinterpret_cast<const Vec3*>(atom->x[0]),
+                                static_cast<std::size_t>(atom->nlocal + atom->nghost)};
+  for (std::size_t c = 0; c < cells_.size(); ++c) {
+    const auto part = list_.geometry(c, x);
+    sums_[2 * c] = part.area;
+    sums_[2 * c + 1] = part.volume;
   }
   exchange_.reduce(sums_);
   for (std::size_t c = 0; c < cells_.size(); ++c) {
@@ -154,50 +179,50 @@ void AngleHemoMembrane::sum_cells() {
   }
 }
 
+membrane::TriangleList::Pull AngleHemoMembrane::pull(std::size_t cell) const {
+  const auto& k = coefficients_[cell_type_[cell]];
+  return {membrane::restoring(k[k_a], cells_[cell].area, k[A_t0]),
+          membrane::restoring(k[k_v], cells_[cell].volume, k[V_0])};
+}
+
 void AngleHemoMembrane::compute(int eflag, int vflag) {
   ev_init(eflag, vflag);
-  if (stale_ || neighbor->ago == 0) rebuild();
+  if (topology_.changed(*neighbor)) rebuild();
   sum_cells();
+  const auto atoms = static_cast<std::size_t>(atom->nlocal + atom->nghost);
+  for (std::size_t c = 0; c < cells_.size(); ++c)
+    list_.add_forces(c, pull(c), {reinterpret_cast<const Vec3*>(atom->x[0]), atoms},
+                     {reinterpret_cast<Vec3*>(atom->f[0]), atoms});
+  if (evflag) tally();
+  if (vflag_global) tally_volume();
+}
+
+/// Energy of each triangle and its rest-area share of the cell's; virial of the area forces. In the
+/// steps that ask for them: the forces of a step do not depend on it.
+void AngleHemoMembrane::tally() {
   const auto* x = reinterpret_cast<const Vec3*>(atom->x[0]);
-  auto* f = reinterpret_cast<Vec3*>(atom->f[0]);
   for (const auto& t : triangles_) {
     const auto& k = coefficients_[t.type];
     const auto& cell = cells_[t.cell];
-    const double length = norm(t.twice_area), area = 0.5 * length;
-    const double area_pull = membrane::restoring(k[k_d], area, k[A_k0]) +
-                             membrane::restoring(k[k_a], cell.area, k[A_t0]);
-    const Vec3 unit = t.twice_area / length;
-    const auto A = membrane::area_forces(x[t.i], x[t.j], x[t.k], unit, area_pull);
-    const auto V =
-        membrane::volume_forces(t.twice_area, membrane::restoring(k[k_v], cell.volume, k[V_0]));
-    f[t.i] += A.a + V.a;
-    f[t.j] += A.b + V.b;
-    f[t.k] += A.c + V.c;
-    if (evflag) tally(t, unit, area_pull);
+    const Vec3 twice_area = membrane::twice_area_vector(x[t.i], x[t.j], x[t.k]);
+    const double length = norm(twice_area), area = 0.5 * length;
+    const double whole = membrane::quadratic(k[k_a], cell.area, k[A_t0]) +
+                         membrane::quadratic(k[k_v], cell.volume, k[V_0]);
+    const double energy_here =
+        membrane::quadratic(k[k_d], area, k[A_k0]) + whole * k[A_k0] / k[A_t0];
+    auto A = membrane::area_forces(x[t.i], x[t.j], x[t.k], twice_area / length,
+                                   membrane::restoring(k[k_d], area, k[A_k0]) + pull(t.cell).area);
+    const Vec3 d1 = x[t.i] - x[t.j], d2 = x[t.k] - x[t.j];
+    ev_tally(t.i, t.j, t.k, atom->nlocal, force->newton_bond, energy_here, &A.a.x, &A.c.x, d1.x,
+             d1.y, d1.z, d2.x, d2.y, d2.z);
   }
-  if (vflag_global)  // volume: the forces of a closed surface have the virial -E'(V) V in every
-                     // direction
-    for (std::size_t c = 0; c < cells_.size(); ++c) {
-      const auto& k = coefficients_[cell_type_[c]];
-      if (!cells_[c].mine) continue;
-      for (int d = 0; d < 3; ++d)
-        virial[d] -= membrane::restoring(k[k_v], cells_[c].volume, k[V_0]) * cells_[c].volume;
-    }
 }
 
-/// Energy of one triangle and its rest-area share of the cell's; virial of the area forces.
-void AngleHemoMembrane::tally(const Triangle& t, const Vec3& unit, double area_pull) {
-  const auto* x = reinterpret_cast<const Vec3*>(atom->x[0]);
-  const auto& k = coefficients_[t.type];
-  const auto& cell = cells_[t.cell];
-  const double whole = membrane::quadratic(k[k_a], cell.area, k[A_t0]) +
-                       membrane::quadratic(k[k_v], cell.volume, k[V_0]);
-  const double energy_here =
-      membrane::quadratic(k[k_d], 0.5 * norm(t.twice_area), k[A_k0]) + whole * k[A_k0] / k[A_t0];
-  auto A = membrane::area_forces(x[t.i], x[t.j], x[t.k], unit, area_pull);
-  const Vec3 d1 = x[t.i] - x[t.j], d2 = x[t.k] - x[t.j];
-  ev_tally(t.i, t.j, t.k, atom->nlocal, force->newton_bond, energy_here, &A.a.x, &A.c.x, d1.x, d1.y,
-           d1.z, d2.x, d2.y, d2.z);
+/// The volume forces of a closed surface have the virial -E'(V) V in every direction.
+void AngleHemoMembrane::tally_volume() {
+  for (std::size_t c = 0; c < cells_.size(); ++c)
+    if (cells_[c].mine)
+      for (int d = 0; d < 3; ++d) virial[d] -= pull(c).volume * cells_[c].volume;
 }
 
 AngleHemoMembrane::Surface AngleHemoMembrane::surface() const {
@@ -223,5 +248,6 @@ void AngleHemoMembrane::read_restart(FILE* file) {
 void AngleHemoMembrane::write_data(FILE* file) { coefficients_.write_data(file); }
 
 double AngleHemoMembrane::memory_usage() {
-  return Angle::memory_usage() + static_cast<double>(triangles_.capacity() * sizeof(Triangle));
+  return Angle::memory_usage() + static_cast<double>(triangles_.capacity() * sizeof(Triangle)) +
+         list_.bytes();
 }

@@ -15,6 +15,8 @@ AngleStyle(hemo/membrane,AngleHemoMembrane)
 #include "analysis/inside.hpp"
 #include "base/vec3.hpp"
 #include "lammps/coefficients.hpp"
+#include "lammps/topology_watch.hpp"
+#include "membrane/network.hpp"
 #include "solver/cell_sums.hpp"
 
 namespace LAMMPS_NS {
@@ -59,24 +61,28 @@ private:
     int i, j, k, type;
     std::size_t cell;      // slot in cells_
     hemomag::Vec3 unwrap;  // from x[j] to the cell's own image
-    hemomag::Vec3 twice_area;
   };
 
   void allocate();
   void check(int type) const;
   void rebuild();
   void agree_on_images();
+  void fill_list();
+  void check_constants() const;
   void sum_cells();
-  void tally(const Triangle& t, const hemomag::Vec3& unit, double area_pull);
+  hemomag::membrane::TriangleList::Pull pull(std::size_t cell) const;
+  void tally();
+  void tally_volume();
 
   hemomag::lammps::Coefficients<columns> coefficients_;
-  std::vector<Triangle> triangles_;
+  std::vector<Triangle> triangles_;       // cell by cell
+  hemomag::membrane::TriangleList list_;  // the same, as the force loops read them
   std::vector<CellState> cells_;
   std::vector<int> cell_type_;  // a triangle type of each cell, for its global constants
   std::vector<double> sums_;    // area and volume of each cell
   hemomag::solver::CellSums exchange_;
   bool oriented_ = false;
-  bool stale_ = true;
+  hemomag::lammps::TopologyWatch topology_;
 };
 
 }  // namespace LAMMPS_NS

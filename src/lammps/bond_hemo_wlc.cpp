@@ -1,6 +1,8 @@
 #include "lammps/bond_hemo_wlc.h"
 
+#include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
 
 #include "atom.h"
@@ -56,23 +58,49 @@ void BondHemoWLC::derive(int type) {
   setflag[type] = 1;
 }
 
+/// This rank's edges with their coefficients, in LAMMPS's order, exponent by exponent. With every
+/// new list.
+void BondHemoWLC::rebuild() {
+  exponents_.clear();
+  for (int type = 1; type <= coefficients_.types(); ++type)
+    if (const double m = spring_[static_cast<std::size_t>(type)].m;
+        std::find(exponents_.begin(), exponents_.end(), m) == exponents_.end())
+      exponents_.push_back(m);
+  edges_.clear();
+  int** list = neighbor->bondlist;
+  for (const double m : exponents_)
+    for (int n = 0; n < neighbor->nbondlist; ++n)
+      if (const auto& spring = spring_[static_cast<std::size_t>(list[n][2])]; spring.m == m)
+        edges_.add(list[n][0], list[n][1], spring);
+  edges_.finish();
+}
+
 void BondHemoWLC::compute(int eflag, int vflag) {
   ev_init(eflag, vflag);
+  if (topology_.changed(*neighbor)) rebuild();
+  const auto atoms = static_cast<std::size_t>(atom->nlocal + atom->nghost);
+  const std::span<const Vec3> x{reinterpret_cast<const Vec3*>(atom->x[0]), atoms};
+  const auto broken = edges_.add_forces(x, {reinterpret_cast<Vec3*>(atom->f[0]), atoms});
+  if (broken >= 0) {
+    const int i = edges_.vertex(0, broken), j = edges_.vertex(1, broken);
+    overstretched(i, j, norm(x[static_cast<std::size_t>(i)] - x[static_cast<std::size_t>(j)]),
+                  edges_.l_max(broken));
+  }
+  if (evflag) tally(eflag);
+}
+
+/// Energy and virial, in the steps that ask for them. The forces of a step do not depend on it.
+void BondHemoWLC::tally(int eflag) {
   const auto* x = reinterpret_cast<const Vec3*>(atom->x[0]);
-  auto* f = reinterpret_cast<Vec3*>(atom->f[0]);
   int** list = neighbor->bondlist;
   for (int n = 0; n < neighbor->nbondlist; ++n) {
     const int i = list[n][0], j = list[n][1];
     const auto& spring = spring_[static_cast<std::size_t>(list[n][2])];
     const Vec3 d = x[i] - x[j];
     const double l = norm(d);
-    if (!(l < spring.l_max)) overstretched(i, j, l, spring.l_max);
-    const double pull = -tension(spring, l) / l;
-    f[i] += pull * d;
-    f[j] -= pull * d;
-    if (evflag)
-      ev_tally(i, j, atom->nlocal, force->newton_bond,
-               eflag ? hemomag::membrane::energy(spring, l) : 0.0, pull, d.x, d.y, d.z);
+    ev_tally(i, j, atom->nlocal, force->newton_bond,
+             eflag ? hemomag::membrane::energy(spring, l) : 0.0, -tension(spring, l) / l, d.x, d.y,
+             d.z);
   }
 }
 

@@ -12,7 +12,8 @@ BondStyle(hemo/wlc,BondHemoWLC)
 #include "bond.h"
 
 #include "lammps/coefficients.hpp"
-#include "membrane/springs.hpp"
+#include "lammps/topology_watch.hpp"
+#include "membrane/network.hpp"
 
 namespace LAMMPS_NS {
 
@@ -21,6 +22,7 @@ class BondHemoWLC : public Bond {
 public:
   explicit BondHemoWLC(LAMMPS*);
   ~BondHemoWLC() override;
+  void init_style() override { topology_.forget(); }
   void compute(int, int) override;
   void coeff(int, char**) override;
   double equilibrium_distance(int) override;
@@ -33,10 +35,15 @@ private:
   enum Column { kBT, x0, l_max, mu0, exponent, gamma_c, gamma_t, columns };
   void allocate();
   void derive(int type);
+  void rebuild();
+  void tally(int eflag);
   [[noreturn]] void overstretched(int i, int j, double length, double limit) const;
 
   hemomag::lammps::Coefficients<columns> coefficients_;
   std::vector<hemomag::membrane::Spring> spring_;
+  std::vector<double> exponents_;  // that occur, each once
+  hemomag::membrane::EdgeList edges_;
+  hemomag::lammps::TopologyWatch topology_;
 };
 
 }  // namespace LAMMPS_NS

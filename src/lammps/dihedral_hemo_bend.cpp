@@ -52,26 +52,38 @@ void DihedralHemoBend::derive(int type) {
   setflag[type] = 1;
 }
 
+/// This rank's hinges with their coefficients, in LAMMPS's order. With every new list.
+void DihedralHemoBend::rebuild() {
+  hinges_.clear();
+  int** list = neighbor->dihedrallist;
+  for (int n = 0; n < neighbor->ndihedrallist; ++n)
+    hinges_.add({list[n][0], list[n][1], list[n][2], list[n][3]},
+                bending_[static_cast<std::size_t>(list[n][4])]);
+  hinges_.finish();
+}
+
 void DihedralHemoBend::compute(int eflag, int vflag) {
   ev_init(eflag, vflag);
+  if (topology_.changed(*neighbor)) rebuild();
+  const auto atoms = static_cast<std::size_t>(atom->nlocal + atom->nghost);
+  hinges_.add_forces({reinterpret_cast<const Vec3*>(atom->x[0]), atoms},
+                     {reinterpret_cast<Vec3*>(atom->f[0]), atoms});
+  if (evflag) tally(eflag);
+}
+
+/// Energy and virial, in the steps that ask for them. The forces of a step do not depend on it.
+void DihedralHemoBend::tally(int eflag) {
   const auto* x = reinterpret_cast<const Vec3*>(atom->x[0]);
-  auto* f = reinterpret_cast<Vec3*>(atom->f[0]);
   int** list = neighbor->dihedrallist;
   for (int n = 0; n < neighbor->ndihedrallist; ++n) {
     const int i1 = list[n][0], i2 = list[n][1], i3 = list[n][2], i4 = list[n][3];
     const auto& bending = bending_[static_cast<std::size_t>(list[n][4])];
     const auto hinge = hemomag::membrane::make_hinge(x[i1], x[i2], x[i3], x[i4]);
     auto F = hemomag::membrane::forces(bending, hinge, x[i1], x[i2], x[i4]);
-    f[i1] += F.f1;
-    f[i2] += F.f2;
-    f[i3] += F.f3;
-    f[i4] += F.f4;
-    if (evflag) {
-      const Vec3 b1 = x[i1] - x[i2], b2 = x[i3] - x[i2], b3 = x[i4] - x[i3];
-      ev_tally(i1, i2, i3, i4, atom->nlocal, force->newton_bond,
-               eflag ? hemomag::membrane::energy(bending, hinge.theta) : 0.0, &F.f1.x, &F.f3.x,
-               &F.f4.x, b1.x, b1.y, b1.z, b2.x, b2.y, b2.z, b3.x, b3.y, b3.z);
-    }
+    const Vec3 b1 = x[i1] - x[i2], b2 = x[i3] - x[i2], b3 = x[i4] - x[i3];
+    ev_tally(i1, i2, i3, i4, atom->nlocal, force->newton_bond,
+             eflag ? hemomag::membrane::energy(bending, hinge.theta) : 0.0, &F.f1.x, &F.f3.x,
+             &F.f4.x, b1.x, b1.y, b1.z, b2.x, b2.y, b2.z, b3.x, b3.y, b3.z);
   }
 }
 

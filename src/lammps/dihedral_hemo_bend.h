@@ -12,7 +12,8 @@ DihedralStyle(hemo/bend,DihedralHemoBend)
 #include "dihedral.h"
 
 #include "lammps/coefficients.hpp"
-#include "membrane/bending.hpp"
+#include "lammps/topology_watch.hpp"
+#include "membrane/network.hpp"
 
 namespace LAMMPS_NS {
 
@@ -22,6 +23,7 @@ class DihedralHemoBend : public Dihedral {
 public:
   explicit DihedralHemoBend(LAMMPS*);
   ~DihedralHemoBend() override;
+  void init_style() override { topology_.forget(); }
   void compute(int, int) override;
   void coeff(int, char**) override;
   void write_restart(FILE*) override;
@@ -32,9 +34,13 @@ private:
   enum Column { k_b, theta_0, columns };
   void allocate();
   void derive(int type);
+  void rebuild();
+  void tally(int eflag);
 
   hemomag::lammps::Coefficients<columns> coefficients_;
   std::vector<hemomag::membrane::Bending> bending_;
+  hemomag::membrane::HingeList hinges_;
+  hemomag::lammps::TopologyWatch topology_;
 };
 
 }  // namespace LAMMPS_NS

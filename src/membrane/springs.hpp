@@ -6,16 +6,20 @@ namespace hemomag::membrane {
 /// In-plane spring of one edge: worm-like chain attraction and power-law repulsion (Eqs. 15, 17,
 /// 21). Both constants follow from the shear modulus and from zero force at the edge's own rest
 /// length.
-struct Spring {
-  double l_max = 1;  ///< length at which the chain is fully drawn out
-  double wlc = 0;    ///< k_B T / p
-  double k_p = 0;  ///< coefficient of the repulsive energy k_p / ((m - 1) l^(m-1)), force k_p / l^m
-  double m = 2;    ///< exponent of the repulsive force
+/// @tparam T  a number or a SIMD vector of numbers
+template <class T> struct SpringOf {
+  T l_max = 1;   ///< length at which the chain is fully drawn out
+  T wlc = 0;     ///< k_B T / p
+  T k_p = 0;     ///< coefficient of the repulsive energy k_p / ((m - 1) l^(m-1)), force k_p / l^m
+  double m = 2;  ///< exponent of the repulsive force
 };
+using Spring = SpringOf<double>;
 
 namespace wlc {
 /// Force over k_B T/p at x = l/l_max: 1/(4 (1-x)^2) - 1/4 + x.
-inline double force(double x) { return 0.25 / ((1 - x) * (1 - x)) - 0.25 + x; }
+template <class T> [[gnu::always_inline]] inline T force(T x) {
+  return 0.25 / ((1.0 - x) * (1.0 - x)) - 0.25 + x;
+}
 /// Energy over k_B T l_max/p: (3 x^2 - 2 x^3)/(4 (1 - x)).
 inline double energy(double x) { return 0.25 * x * x * (3 - 2 * x) / (1 - x); }
 }  // namespace wlc
@@ -38,8 +42,9 @@ inline Spring make_spring(double x0, double l_max, double mu0, double m) {
 
 /// Tension of the spring at length l, positive when it pulls its ends together (Eq. 17).
 /// Differs from eq. (17): the repulsive force is k_p/l^2, the derivative of Eq. 15, not k_p/l.
-inline double tension(const Spring& s, double l) {
-  const double power = s.m == 2 ? 1 / (l * l) : std::pow(l, -s.m);
+template <class T> [[gnu::always_inline]] inline T tension(const SpringOf<T>& s, T l) {
+  using std::pow;
+  const T power = s.m == 2 ? 1.0 / (l * l) : pow(l, -s.m);
   return s.wlc * wlc::force(l / s.l_max) - s.k_p * power;
 }
 
