@@ -123,6 +123,7 @@ struct Run {
 struct Output {
   std::optional<double> fields;         ///< [s]; empty: never
   std::optional<double> series = 1e-3;  ///< [s]; empty: never
+  std::optional<double> cells;          ///< [s]; empty: never
 };
 
 struct Case {

@@ -393,6 +393,9 @@ void read_run(Case& c, const Table& run, const Table& analysis) {
 void read_output(Case& c, const Table& t) {
   c.output.fields = t.is_word("fields", "never") ? std::nullopt : t.optional_quantity("fields");
   c.output.series = t.is_word("series", "never") ? std::nullopt : t.optional_quantity("series");
+  c.output.cells = !t.has("cells")               ? c.output.fields
+                   : t.is_word("cells", "never") ? std::nullopt
+                                                 : t.optional_quantity("cells");
 }
 
 /// Every key's place, for messages that come after reading.

@@ -201,6 +201,17 @@ const std::vector<Key>& table() {
        {"never"},
        {},
        "simulated time between rows of margination.csv"},
+      {"output",
+       "cells",
+       Kind::quantity,
+       &time,
+       0,
+       inf,
+       true,
+       "",
+       {"never"},
+       {},
+       "simulated time between rows of cells.csv; the default is that of fields"},
   };
   return all;
 }

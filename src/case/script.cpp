@@ -275,6 +275,12 @@ private:
     if (c_.output.fields)
       line("fix snapshot all hemo/snapshot %ld fields dx_um %.12g dt_s %.12g",
            steps_in(*c_.output.fields, units_), dx_um, units_.dt);
+    if (cells_ > 0 && c_.output.cells) {
+      line("compute cells cells hemo/cell");
+      // Turns are counted at every look of the watch: a membrane hardly moves between two.
+      line("fix cells all hemo/cells %ld cells cells.csv dx_um %.12g dt_s %.12g follow %d",
+           steps_in(*c_.output.cells, units_), dx_um, units_.dt, watch_every);
+    }
     append("fix watch all hemo/watch %d mach_max 0.3", watch_every);
     if (cells_ > 0) append(" cells cells");
     if (carriers_ > 0) append(" carriers carriers");

@@ -6,9 +6,11 @@
 
 #include "lammps/angle_hemo_membrane.h"
 #include "lammps/bond_hemo_wlc.h"
+#include "lammps/compute_hemo_cell.h"
 #include "lammps/compute_hemo_margination.h"
 #include "lammps/dihedral_hemo_bend.h"
 #include "lammps/fix_hemo_advect.h"
+#include "lammps/fix_hemo_cells.h"
 #include "lammps/fix_hemo_drag.h"
 #include "lammps/fix_hemo_field.h"
 #include "lammps/fix_hemo_fluid.h"
@@ -45,6 +47,7 @@ void register_styles(LAMMPS_NS::LAMMPS& lmp) {
   auto& dihedrals = *lmp.force->dihedral_map;
 
   fixes["hemo/advect"] = new_fix<LAMMPS_NS::FixHemoAdvect>;
+  fixes["hemo/cells"] = new_fix<LAMMPS_NS::FixHemoCells>;
   fixes["hemo/drag"] = new_fix<LAMMPS_NS::FixHemoDrag>;
   fixes["hemo/field"] = new_fix<LAMMPS_NS::FixHemoField>;
   fixes["hemo/fluid"] = new_fix<LAMMPS_NS::FixHemoFluid>;
@@ -53,6 +56,7 @@ void register_styles(LAMMPS_NS::LAMMPS& lmp) {
   fixes["hemo/snapshot"] = new_fix<LAMMPS_NS::FixHemoSnapshot>;
   fixes["hemo/wall"] = new_fix<LAMMPS_NS::FixHemoWall>;
   fixes["hemo/watch"] = new_fix<LAMMPS_NS::FixHemoWatch>;
+  computes["hemo/cell"] = new_compute<LAMMPS_NS::ComputeHemoCell>;
   computes["hemo/margination"] = new_compute<LAMMPS_NS::ComputeHemoMargination>;
   pairs["hemo/contact"] = new_force<LAMMPS_NS::Pair, LAMMPS_NS::PairHemoContact>;
   pairs["hemo/dipole"] = new_force<LAMMPS_NS::Pair, LAMMPS_NS::PairHemoDipole>;
