@@ -6,18 +6,25 @@
 #include <mpi.h>
 #include <nlohmann/json.hpp>
 
+#include "base/error.hpp"
+
 namespace hemomag::app {
 namespace {
 
 void print(const Finding& f, bool json) {
   if (json) {
     const nlohmann::ordered_json line{
-        {"name", f.name},         {"quantity", f.quantity}, {"measured", f.measured},
-        {"expected", f.expected}, {"error", f.error()},     {"tolerance", f.tolerance},
-        {"unit", f.unit},         {"pass", f.pass()},       {"source", f.source}};
+        {"name", f.name},         {"quantity", f.quantity},
+        {"measured", f.measured}, {"expected", f.expected},
+        {"error", f.error()},     {"tolerance", f.tolerance},
+        {"unit", f.unit},         {"pass", f.pass()},
+        {"source", f.source},     {"gate", f.kind == Finding::Kind::gate}};
     std::printf("%s\n", line.dump().c_str());
+  } else if (f.kind == Finding::Kind::printed) {
+    std::printf("%-16s %-62s %12.6g %12.6g %9.1e %9s %-6s printed\n", f.name.c_str(),
+                f.quantity.c_str(), f.measured, f.expected, f.error(), "-", f.unit.c_str());
   } else {
-    std::printf("%-16s %-44s %12.6g %12.6g %9.1e %9.1e %-6s %s\n", f.name.c_str(),
+    std::printf("%-16s %-62s %12.6g %12.6g %9.1e %9.1e %-6s %s\n", f.name.c_str(),
                 f.quantity.c_str(), f.measured, f.expected, f.error(), f.tolerance, f.unit.c_str(),
                 f.pass() ? "pass" : "FAIL");
   }
@@ -29,13 +36,14 @@ void print(const Finding& f, bool json) {
 const std::vector<Validation>& validations() {
   static const std::vector<Validation> all = [] {
     auto list = fluid_validations();
-    for (auto& v : curved_validations()) list.push_back(std::move(v));
+    for (auto* more : {curved_validations, moduli_validations, stretch_validations})
+      for (auto& v : more()) list.push_back(std::move(v));
     return list;
   }();
   return all;
 }
 
-int validate(const std::vector<std::string>& names, bool json) {
+int validate(const std::vector<std::string>& names, bool json, const std::string& out) {
   int rank = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   for (const std::string& name : names)
@@ -52,14 +60,19 @@ int validate(const std::vector<std::string>& names, bool json) {
   int code = 0;
   if (rank == 0) {
     if (!json)
-      std::printf("%-16s %-44s %12s %12s %9s %9s\n", "validation", "quantity", "measured",
+      std::printf("%-16s %-62s %12s %12s %9s %9s\n", "validation", "quantity", "measured",
                   "expected", "error", "tolerance");
     int passed = 0, failed = 0;
     for (const Validation& v : validations()) {
       if (!names.empty() && std::find(names.begin(), names.end(), v.name) == names.end()) continue;
-      for (const Finding& f : v.run()) {
-        print(f, json);
-        ++(f.pass() ? passed : failed);
+      try {
+        for (const Finding& f : v.run(out)) {
+          print(f, json);
+          ++(f.pass() ? passed : failed);
+        }
+      } catch (const Error& e) {
+        std::fprintf(stderr, "hemomag validate %s: %s\n", v.name.c_str(), e.what());
+        ++failed;
       }
     }
     if (!json) std::printf("%d passed, %d failed\n", passed, failed);
