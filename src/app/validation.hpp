@@ -57,6 +57,7 @@ std::vector<Validation> fluid_validations();
 std::vector<Validation> curved_validations();
 std::vector<Validation> moduli_validations();
 std::vector<Validation> stretch_validations();
+std::vector<Validation> cell_validations();
 
 /// Run the named ones (all if none) and print them, as a table or as one JSON object a line. Rank 0
 /// works alone.
