@@ -63,8 +63,11 @@ Agreement agreement(const std::vector<Stretched>& curve) {
   return a;
 }
 
-Finding at_most(std::string quantity, double measured, double limit, const char* source) {
-  return {"stretch", std::move(quantity), measured, 0, limit, "", source};
+using Kind = Finding::Kind;
+
+Finding at_most(std::string quantity, double measured, double limit, const char* source,
+                Kind kind = Kind::gate) {
+  return {"stretch", std::move(quantity), measured, 0, limit, "", source, kind};
 }
 
 void against_mills(const std::vector<Stretched>& curve, std::vector<Finding>& found) {
@@ -75,9 +78,11 @@ void against_mills(const std::vector<Stretched>& curve, std::vector<Finding>& fo
   found.push_back(
       at_most("D_T, largest distance from the mean, s.d.", a.worst_T, worst_sd_T, mills));
   found.push_back(at_most("D_T, root mean square deviation", a.rms_T, rms_T, mills));
-  found.push_back(printed("stretch", "D_A, points within one s.d.", a.within_A, 13, "", mills));
-  found.push_back(printed("stretch", "D_T, points within one s.d. (known shortfall)", a.within_T,
-                          13, "", mills));
+  found.push_back({"stretch", "D_A, points within one s.d.", static_cast<double>(a.within_A), 13, 0,
+                   "", mills});
+  // The isotropic answer at the printed mu0: 7 of 13, as on the authors' own mesh.
+  found.push_back({"stretch", "D_T, points within one s.d.", static_cast<double>(a.within_T), 13, 0,
+                   "", mills, Kind::shortfall});
 }
 
 /// A softer cell meets every point: the printed constant, not the model, is what D_T misses.
@@ -150,20 +155,38 @@ void meshes_and_directions(const std::vector<Stretched>& fine_curve,
                           direction_tolerance, spread));
   found.push_back(at_most("3286 vertices, D_T of pulls at 0, 45, 90 degrees, spread", f.worst_T,
                           direction_tolerance, spread));
-  found.push_back(printed("stretch", "642 vertices, D_A of pulls at 0, 45, 90 degrees, spread",
-                          c.worst_A, 0, "", spread));
-  found.push_back(printed("stretch", "642 vertices, D_T of the same (known shortfall, goal 0.015)",
-                          c.worst_T, 0, "", spread));
+  // A few hundred random vertices are isotropic in the mean over meshes only: known misses.
+  found.push_back(at_most("642 vertices, D_A of pulls at 0, 45, 90 degrees, spread", c.worst_A,
+                          direction_tolerance, spread));
+  found.push_back(at_most("642 vertices, D_T of pulls at 0, 45, 90 degrees, spread", c.worst_T,
+                          direction_tolerance, spread, Kind::shortfall));
   found.push_back(at_most("642 against 3286 vertices, D_A, mean of the three pulls",
                           largest_difference(c.mean_A, f.mean_A), mesh_tolerance, meshes));
   found.push_back(at_most("642 against 3286 vertices, D_T, mean of the three pulls",
                           largest_difference(c.mean_T, f.mean_T), mesh_tolerance, meshes));
-  found.push_back(printed("stretch", "642 against 3286 vertices, D_A, one pull each (goal 0.02)",
-                          largest_difference(coarse_curve, fine_curve, &Stretched::D_A), 0, "",
-                          meshes));
-  found.push_back(printed("stretch", "642 against 3286 vertices, D_T, one pull each (goal 0.02)",
-                          largest_difference(coarse_curve, fine_curve, &Stretched::D_T), 0, "",
-                          meshes));
+  found.push_back(at_most("642 against 3286 vertices, D_A, one pull each",
+                          largest_difference(coarse_curve, fine_curve, &Stretched::D_A),
+                          mesh_tolerance, meshes));
+  found.push_back(at_most("642 against 3286 vertices, D_T, one pull each",
+                          largest_difference(coarse_curve, fine_curve, &Stretched::D_T),
+                          mesh_tolerance, meshes, Kind::shortfall));
+}
+
+/// How much the mesh's seed alone decides at 642 vertices.
+void seeds(std::vector<Finding>& found) {
+  constexpr int meshes = 5;
+  double low_A = 1e9, high_A = 0, low_T = 1e9, high_T = 0;
+  for (int k = 1; k <= meshes; ++k) {
+    const auto mesh = membrane::red_cell_mesh(coarse, rest_diameter, static_cast<std::uint64_t>(k));
+    const Stretched s = stretch(mesh, table_1(), {0, 50, 100}, {}).back();
+    low_A = std::min(low_A, s.D_A), high_A = std::max(high_A, s.D_A);
+    low_T = std::min(low_T, s.D_T), high_T = std::max(high_T, s.D_T);
+  }
+  const char* source = "the same cell";
+  found.push_back(printed("stretch", "642 vertices, five seeds, D_A at 100 pN, spread",
+                          2 * (high_A - low_A) / (high_A + low_A), 0, "", source));
+  found.push_back(printed("stretch", "642 vertices, five seeds, D_T at 100 pN, spread",
+                          2 * (high_T - low_T) / (high_T + low_T), 0, "", source));
 }
 
 void against_authors_mesh(const std::vector<Stretched>& curve, std::vector<Finding>& found) {
@@ -266,6 +289,7 @@ std::vector<Finding> stretch_quasi_static(const std::string& out) {
   found.push_back(
       at_most("largest change of volume up to 200 pN", volume, volume_limit, "at rest"));
   meshes_and_directions(fine_curve, coarse_curve, fine_mesh, coarse_mesh, found);
+  seeds(found);
   return found;
 }
 

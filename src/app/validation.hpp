@@ -18,13 +18,15 @@ struct Finding {
   double tolerance = 0;  ///< of |measured - expected|
   std::string unit;
   std::string source;  ///< of the expectation
-  /// Whether a miss fails the validation; a number that is only printed has no tolerance.
-  enum class Kind { gate, printed } kind = Kind::gate;
+  /// A gate's miss fails the validation. A shortfall is a miss that is known and explained: shown
+  /// as one against its tolerance, it fails nothing. A printed number has no tolerance.
+  enum class Kind { gate, shortfall, printed } kind = Kind::gate;
   double error() const { return measured > expected ? measured - expected : expected - measured; }
   bool pass() const { return kind == Kind::printed || error() <= tolerance; }
+  bool fails() const { return kind == Kind::gate && !pass(); }
 };
 
-/// A number to be read beside another, such as a known shortfall: it passes whatever it is.
+/// A number to be read beside another.
 inline Finding printed(std::string name, std::string quantity, double measured, double expected,
                        std::string unit, std::string source) {
   return {std::move(name),   std::move(quantity),   measured, expected, 0, std::move(unit),
