@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "membrane/network.hpp"
+#include "membrane/whole_cell.hpp"
 
 // The elasticity of a flat periodic sheet of the membrane's springs and triangles.
 

@@ -31,7 +31,7 @@ std::vector<Vec3> turned(std::vector<Vec3> x, double degrees) {
   return x;
 }
 
-Stretched measure(const membrane::Network& network, const std::vector<Vec3>& x, double force) {
+Stretched measure(const membrane::WholeCell& network, const std::vector<Vec3>& x, double force) {
   Vec3 low = x[0], high = x[0];
   for (const Vec3& p : x)
     for (std::size_t d = 0; d < 3; ++d)
@@ -52,7 +52,7 @@ std::vector<Stretched> stretch(const membrane::TriangleMesh& mesh, const membran
                                const std::vector<double>& forces, const StretchOptions& options) {
   membrane::TriangleMesh rest = mesh;
   rest.x = turned(mesh.x, options.direction);
-  const membrane::Network network(rest, moduli);
+  const membrane::WholeCell network(rest, moduli);
   const Grips held = grips(rest.x, options.fraction);
   std::vector<Vec3> x = rest.x, before = rest.x;
   std::vector<Stretched> states;

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "membrane/network.hpp"
+#include "membrane/whole_cell.hpp"
 
 // Stretching a red cell between two opposite end loads, without a fluid: the state is the minimum
 // of the membrane's energy under that load (quasi-static, no thermal noise).
@@ -41,7 +41,7 @@ struct StretchOptions {
 };
 
 /// Extents and changes of a state.
-Stretched measure(const membrane::Network& network, const std::vector<Vec3>& x, double force);
+Stretched measure(const membrane::WholeCell& network, const std::vector<Vec3>& x, double force);
 
 /// Equilibria under rising forces [pN].
 /// @throws hemomag::Error when the minimiser does not reach 1e-3 pN a vertex

@@ -27,7 +27,7 @@ constexpr double steady_tolerance = 0.015;  // relative, of the issue
 std::vector<Finding> stretch_in_fluid(const std::string& out) {
   const std::vector<double> forces{25, 50, 100, 200};
   const auto mesh = CellRun::rest_mesh(vertices);
-  const membrane::Network network(mesh, table_1());
+  const membrane::WholeCell network(mesh, table_1());
   const auto expected = stretch(mesh, table_1(), forces, {});
   CellRun cell(out, mesh.x, {.vertices = vertices, .dt = stretch_dt});
   io::make_directory(out);
@@ -91,7 +91,7 @@ constexpr double return_tolerance = 0.01;  // relative, of the issue for area an
 
 std::vector<Finding> cell_at_rest(const std::string& out) {
   const auto mesh = CellRun::rest_mesh(vertices);
-  const membrane::Network network(mesh, table_1());
+  const membrane::WholeCell network(mesh, table_1());
   const Stretched rest = measure(network, mesh.x, 0);
   std::vector<Finding> found;
   const char* name = "cell-at-rest";
@@ -156,7 +156,7 @@ double recovery_time(const io::Series& s, double end) {
 
 std::vector<Finding> relaxation(const std::string& out) {
   const auto mesh = CellRun::rest_mesh(vertices);
-  const membrane::Network network(mesh, table_1());
+  const membrane::WholeCell network(mesh, table_1());
   const auto pulled = stretch(mesh, table_1(), {0, 25, 50, relax_pull}, {});
   CellRun cell(out, pulled.back().x, {.vertices = vertices, .dt = relax_dt});
   io::make_directory(out);

@@ -1,4 +1,4 @@
-#include "membrane/network.hpp"
+#include "membrane/whole_cell.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 namespace hemomag::membrane {
 
-Network::Network(const TriangleMesh& rest, const Moduli& moduli)
+WholeCell::WholeCell(const TriangleMesh& rest, const Moduli& moduli)
     : moduli_(moduli), triangles_(rest.triangles), topology_(topology(rest)) {
   const auto& x = rest.x;
   for (const Edge& e : topology_.edges)
@@ -25,19 +25,19 @@ Network::Network(const TriangleMesh& rest, const Moduli& moduli)
   volume0_ = volume(x);
 }
 
-double Network::area(std::span<const Vec3> x) const {
+double WholeCell::area(std::span<const Vec3> x) const {
   double sum = 0;
   for (const auto& t : triangles_) sum += 0.5 * norm(twice_area_vector(x[t[0]], x[t[1]], x[t[2]]));
   return sum;
 }
 
-double Network::volume(std::span<const Vec3> x) const {
+double WholeCell::volume(std::span<const Vec3> x) const {
   double sum = 0;
   for (const auto& t : triangles_) sum += volume_under(x[t[0]], x[t[1]], x[t[2]]);
   return sum;
 }
 
-double Network::largest_extension(std::span<const Vec3> x) const {
+double WholeCell::largest_extension(std::span<const Vec3> x) const {
   double most = 0;
   for (std::size_t e = 0; e < springs_.size(); ++e) {
     const auto [a, b] = topology_.edges[e];
@@ -46,7 +46,7 @@ double Network::largest_extension(std::span<const Vec3> x) const {
   return most;
 }
 
-double Network::triangle_energies(std::span<const Vec3> x, std::span<Vec3> force) const {
+double WholeCell::triangle_energies(std::span<const Vec3> x, std::span<Vec3> force) const {
   const double area_now = area(x), volume_now = volume(x);
   const double dE_dA = restoring(moduli_.k_a, area_now, area0_);
   const double dE_dV = restoring(moduli_.k_v, volume_now, volume0_);
@@ -68,7 +68,7 @@ double Network::triangle_energies(std::span<const Vec3> x, std::span<Vec3> force
   return sum;
 }
 
-double Network::energy(std::span<const Vec3> x, std::span<Vec3> force) const {
+double WholeCell::energy(std::span<const Vec3> x, std::span<Vec3> force) const {
   std::fill(force.begin(), force.end(), Vec3{});
   double sum = triangle_energies(x, force);
   for (std::size_t e = 0; e < springs_.size(); ++e) {

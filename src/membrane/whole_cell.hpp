@@ -23,10 +23,10 @@ struct Moduli {
 
 /// One whole cell whose rest state, of every edge, triangle and hinge, is a given mesh. The plain
 /// sum of the laws of this room: for statics and as a reference, not for the time step.
-class Network {
+class WholeCell {
 public:
   /// @throws hemomag::Error when the mesh is not closed
-  Network(const TriangleMesh& rest, const Moduli& moduli);
+  WholeCell(const TriangleMesh& rest, const Moduli& moduli);
 
   /// Energy of the state `x` and its forces, minus the gradient.
   /// @param x      [n_v]

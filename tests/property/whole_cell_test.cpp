@@ -3,7 +3,7 @@
 
 #include "base/minimise.hpp"
 #include "membrane/mesh.hpp"
-#include "membrane/network.hpp"
+#include "membrane/whole_cell.hpp"
 #include "support/gradient.hpp"
 
 namespace {
@@ -15,7 +15,7 @@ constexpr double gradient_tolerance =
     1e-7;                            // relative to the largest force; differences are good to 1e-9
 constexpr double round_off = 1e-12;  // sums of some hundred forces of the largest one's size
 
-membrane::Network cell(const membrane::TriangleMesh& mesh) {
+membrane::WholeCell cell(const membrane::TriangleMesh& mesh) {
   return {mesh, {.mu0 = 6.3, .k_a = 4.72, .k_d = 231, .k_v = 249, .k_b = 0.5}};
 }
 
@@ -32,14 +32,14 @@ double largest(const std::vector<Vec3>& f) {
   return most;
 }
 
-TEST(Network, RestsOnItsMesh) {
+TEST(WholeCell, RestsOnItsMesh) {
   const auto mesh = membrane::red_cell_mesh(200, 7.82, 1);
   std::vector<Vec3> f(mesh.x.size());
   cell(mesh).energy(mesh.x, f);
   EXPECT_LT(largest(f), 1e-10);  // pN, where a stretched cell has some 10
 }
 
-TEST(Network, ForcesAreMinusTheGradientAndPushNothingAsAWhole) {
+TEST(WholeCell, ForcesAreMinusTheGradientAndPushNothingAsAWhole) {
   const auto mesh = membrane::red_cell_mesh(200, 7.82, 1);
   const auto network = cell(mesh);
   Random random(2);
@@ -56,7 +56,7 @@ TEST(Network, ForcesAreMinusTheGradientAndPushNothingAsAWhole) {
   EXPECT_LT(error, gradient_tolerance);
 }
 
-TEST(Network, ADisturbedCellFallsBackToItsMesh) {
+TEST(WholeCell, ADisturbedCellFallsBackToItsMesh) {
   const auto mesh = membrane::red_cell_mesh(200, 7.82, 1);
   const auto network = cell(mesh);
   Random random(3);
