@@ -89,6 +89,8 @@ int parse_and_run(int argc, char** argv) {
   auto* validation =
       app.add_subcommand("validate", "compare with theory; all validations, or the named ones");
   validation->add_option("NAME", names, "validations to run");
+  std::string figures = "out/validate";
+  validation->add_option("--out", figures, "directory of figures and their data");
   auto* speed = app.add_subcommand("bench", "measure speed: fluid, membrane");
   speed->add_option("NAME", names, "benchmarks to run");
   for (auto* command : {validation, speed})
@@ -105,7 +107,7 @@ int parse_and_run(int argc, char** argv) {
   for (const auto& [name, help] : later)
     if (app.got_subcommand(name)) return not_available(name);
   if (resume) return not_available("--resume");
-  if (app.got_subcommand("validate")) return hemomag::app::validate(names, json);
+  if (app.got_subcommand("validate")) return hemomag::app::validate(names, json, figures);
   if (app.got_subcommand("bench")) return hemomag::app::bench(names, json);
   if (app.got_subcommand("check")) return with_case(path, overrides, check);
   if (out.empty()) out = "out/" + std::filesystem::path(path).stem().string();

@@ -1,0 +1,43 @@
+// Figures hold what they are given: every point, every error bar, every face that can be seen.
+#include <gtest/gtest.h>
+
+#include "base/error.hpp"
+#include "io/figure.hpp"
+
+namespace {
+
+using namespace hemomag;
+
+int count(const std::string& text, const std::string& what) {
+  int n = 0;
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++n;
+  return n;
+}
+
+TEST(Figure, ADiagramHasEveryPointAtItsPlace) {
+  io::Series s{"a < b", "red", {0, 5, 10}, {0, 1, 2}, {}, io::Series::Style::circles};
+  const std::string svg = io::draw_diagrams({{"t", "x", "y", {s}, {0, 10}, {0, 2}}});
+  EXPECT_EQ(count(svg, "<circle"), 4);  // three points and the legend's
+  // The frame runs from 62 to 406 and from 34 to 292: the middle point is in its middle.
+  EXPECT_EQ(count(svg, "cx=\"234.00\" cy=\"163.00\""), 1);
+  EXPECT_EQ(count(svg, "a &lt; b"), 1);
+  s.spread = {0.1, 0.1, 0.1};
+  const std::string bars = io::draw_diagrams({{"t", "x", "y", {s}, {0, 10}, {0, 2}}});
+  EXPECT_EQ(count(bars, "stroke=\"red\" fill=\"none\""), 3);
+}
+
+TEST(Figure, ADiagramWithoutPointsIsRefused) {
+  EXPECT_THROW(io::draw_diagrams({{"empty", "x", "y", {}, {}, {}}}), Error);
+}
+
+TEST(Figure, ABodyShowsTheFacesTurnedToTheViewer) {
+  // A tetrahedron on its base: from above, three faces are seen.
+  io::Body body;
+  body.label = "tetrahedron";
+  body.x = {{0, 0, 0}, {2, 0, 0}, {1, 2, 0}, {1, 0.7, 1}};
+  body.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+  const std::string svg = io::draw_bodies({body}, 90, 1, "1 um");
+  EXPECT_EQ(count(svg, "Z\" fill"), 3);
+}
+
+}  // namespace
