@@ -7,19 +7,27 @@
 #include "case/placement.hpp"
 #include "case/script.hpp"
 #include "io/files.hpp"
+#include "lammps/compat.hpp"
+#include "lammps/compute_hemo_cell.h"
 #include "lammps/positions.hpp"
 
 namespace hemomag::app {
 namespace {
 
 constexpr double um = 1e-6, pN = 1e-12;
-constexpr Vec3 box{20, 12, 8};  // um; a cell at 200 pN is 16 long
+
+Vec3 box(const CellRun::Options& o) {
+  return o.shear_rate > 0 ? CellRun::shear_box : CellRun::periodic_box;
+}
 
 case_::Case one_cell(const CellRun::Options& o) {
   case_::Case c;
-  c.title = "one cell in a periodic box";
-  c.channel.size = {box.x * um, box.y * um, box.z * um};
-  c.channel.boundary = case_::Boundary::periodic;
+  c.title = "one cell";
+  const Vec3 size = um * box(o);
+  c.channel.size = {size.x, size.y, size.z};
+  c.channel.boundary = o.shear_rate > 0 ? case_::Boundary::plates : case_::Boundary::periodic;
+  c.channel.plates = case_::Plates::symmetric;
+  c.channel.shear_rate = o.shear_rate;
   c.fluid.viscosity = 1.2e-3;
   c.numerics.dx = o.dx * um;
   c.numerics.dt = o.dt;
@@ -27,6 +35,7 @@ case_::Case one_cell(const CellRun::Options& o) {
   c.cells[0].vertices = o.vertices;
   c.cells[0].count = 1;
   c.cells[0].hinges = o.hinges;
+  c.cells[0].stress_free = o.stress_free;
   c.run.steps = 0;
   c.output.series.reset();
   return c;
@@ -50,7 +59,7 @@ membrane::TriangleMesh CellRun::rest_mesh(int vertices) {
 }
 
 CellRun::CellRun(const std::string& out, const std::vector<Vec3>& start, const Options& options)
-    : middle_(0.5 * box), dx_(options.dx), dt_(options.dt) {
+    : middle_(0.5 * box(options)), dx_(options.dx), dt_(options.dt) {
   const case_::Case c = one_cell(options);
   force_unit_ = case_::lattice_units(c).force() / pN;
   case_::System system;
@@ -82,6 +91,7 @@ CellRun::CellRun(const std::string& out, const std::vector<Vec3>& start, const O
     }
     host_->command(line == "read_data cells.data" ? read_data : line);
   }
+  host_->command("compute motion cells hemo/cell");
 }
 
 void CellRun::pull(double force) {
@@ -96,6 +106,16 @@ void CellRun::pull(double force) {
 void CellRun::run(long steps) {
   host_->command("run " + std::to_string(steps) + " post no");
   steps_ += steps;
+}
+
+CellRun::Motion CellRun::motion() {
+  using Compute = LAMMPS_NS::ComputeHemoCell;
+  auto* cell = lammps::find_compute<Compute>(&host_->lammps(), "motion");
+  cell->compute_array();
+  const double* row = cell->array[0];
+  Motion m{row[Compute::phase] - row[Compute::treading], row[Compute::phase], {}};
+  for (std::size_t i = 0; i < 3; ++i) m.semi_axes[i] = row[Compute::semi_axes + i] * dx_;
+  return m;
 }
 
 std::vector<Vec3> CellRun::x() const {

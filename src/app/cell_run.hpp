@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -10,8 +11,9 @@
 
 namespace hemomag::app {
 
-/// One red cell of Table 1 alone in a periodic box of fluid, run by LAMMPS with the hemo styles on
-/// the calling rank. Lengths in um, forces in pN, about the middle of the box.
+/// One red cell of Table 1 alone in fluid, in a periodic box or between two plates that shear it,
+/// run by LAMMPS with the hemo styles on the calling rank. Lengths in um, forces in pN, about the
+/// middle of the box.
 class CellRun {
 public:
   struct Options {
@@ -19,7 +21,18 @@ public:
     double dx = 0.5;  ///< node spacing [um]
     double dt = 0;    ///< time step [s]; the density follows from it
     case_::Hinges hinges = case_::Hinges::rest;
+    case_::StressFree stress_free = case_::StressFree::rest_shape;
+    double shear_rate = 0;   ///< [1/s] v_y = shear_rate z between plates; 0: a periodic box
     double fraction = 0.02;  ///< of the vertices in each grip
+  };
+  static constexpr Vec3 periodic_box{20, 12, 8};  ///< [um] a cell at 200 pN is 16 long
+  static constexpr Vec3 shear_box{16, 16, 16};    ///< [um] about two diameters of a cell
+
+  /// Angles in the shear plane in degrees, counted over turns, and semi-axes a >= b >= c in um
+  /// (docs/styles/compute_hemo_cell.md). In v_y = G z, G > 0, angles fall.
+  struct Motion {
+    double inclination, phase;
+    std::array<double, 3> semi_axes;
   };
 
   /// The cell's rest mesh, the same for the same number of vertices.
@@ -34,6 +47,8 @@ public:
   void run(long steps);
   double time() const { return static_cast<double>(steps_) * dt_; }  ///< [s]
   std::vector<Vec3> x() const;
+  /// Counts turns from call to call: call it before the cell turns by a quarter. Not before a run.
+  Motion motion();
 
 private:
   std::unique_ptr<lammps::Host> host_;

@@ -80,4 +80,39 @@ inline constexpr std::array<RecoveryPoint, 10> hochmuth_1979{{
     {0.397, 1.112},
 }};
 
+/// Tank-treading frequency over shear rate, means over shear-rate bins of 225 single cells in a
+/// fluid of 28.9 mPa s: Fischer & Korzeniewski 2015, Fig. S11 [1/s, -].
+struct TreadingPoint {
+  double shear_rate, frequency_over_shear;
+};
+inline constexpr double fischer_2015_viscosity = 28.9e-3;  ///< [Pa s]
+inline constexpr std::array<TreadingPoint, 6> fischer_2015{{
+    {8.21, 0.0398},
+    {16.88, 0.0368},
+    {32.44, 0.0330},
+    {65.17, 0.0287},
+    {131.6, 0.0260},
+    {258.0, 0.0254},
+}};
+
+/// Shear stress [Pa] at which tumbling gives way to tank-treading, by suspending viscosity [mPa s]:
+/// Fischer & Korzeniewski, J. Fluid Mech. 736, 351 (2013); Abkarian, Faivre, Viallat, Phys. Rev.
+/// Lett. 98, 188302 (2007).
+struct ThresholdPoint {
+  double viscosity, stress;
+  const char* source;
+};
+inline constexpr std::array<ThresholdPoint, 10> tumbling_thresholds{{
+    {10.7, 0.921, "Fischer & Korzeniewski 2013"},
+    {10.7, 0.791, "Fischer & Korzeniewski 2013"},
+    {10.7, 0.584, "Fischer & Korzeniewski 2013"},
+    {23.9, 0.232, "Fischer & Korzeniewski 2013"},
+    {23.9, 0.115, "Fischer & Korzeniewski 2013"},
+    {23.9, 0.0634, "Fischer & Korzeniewski 2013"},
+    {104, 0.0560, "Fischer & Korzeniewski 2013"},
+    {104, 0.0592, "Fischer & Korzeniewski 2013"},
+    {31.0, 0.0582, "Abkarian et al. 2007"},
+    {31.0, 0.0467, "Abkarian et al. 2007"},
+}};
+
 }  // namespace hemomag::app

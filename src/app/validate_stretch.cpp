@@ -155,21 +155,22 @@ void meshes_and_directions(const std::vector<Stretched>& fine_curve,
                           direction_tolerance, spread));
   found.push_back(at_most("3286 vertices, D_T of pulls at 0, 45, 90 degrees, spread", f.worst_T,
                           direction_tolerance, spread));
-  // A few hundred random vertices are isotropic in the mean over meshes only: known misses.
+  // Of 642 vertices 13 are held at each end, and where these few lie decides D_A by a per cent or
+  // two: known misses.
   found.push_back(at_most("642 vertices, D_A of pulls at 0, 45, 90 degrees, spread", c.worst_A,
-                          direction_tolerance, spread));
-  found.push_back(at_most("642 vertices, D_T of pulls at 0, 45, 90 degrees, spread", c.worst_T,
                           direction_tolerance, spread, Kind::shortfall));
+  found.push_back(at_most("642 vertices, D_T of pulls at 0, 45, 90 degrees, spread", c.worst_T,
+                          direction_tolerance, spread));
   found.push_back(at_most("642 against 3286 vertices, D_A, mean of the three pulls",
                           largest_difference(c.mean_A, f.mean_A), mesh_tolerance, meshes));
   found.push_back(at_most("642 against 3286 vertices, D_T, mean of the three pulls",
                           largest_difference(c.mean_T, f.mean_T), mesh_tolerance, meshes));
   found.push_back(at_most("642 against 3286 vertices, D_A, one pull each",
                           largest_difference(coarse_curve, fine_curve, &Stretched::D_A),
-                          mesh_tolerance, meshes));
+                          mesh_tolerance, meshes, Kind::shortfall));
   found.push_back(at_most("642 against 3286 vertices, D_T, one pull each",
                           largest_difference(coarse_curve, fine_curve, &Stretched::D_T),
-                          mesh_tolerance, meshes, Kind::shortfall));
+                          mesh_tolerance, meshes));
 }
 
 /// How much the mesh's seed alone decides at 642 vertices.

@@ -67,6 +67,7 @@ public:
       : d_(d), offset_(offset), x_(axis(d.x_range, &Series::x)), y_(axis(d.y_range, &Series::y)) {}
 
   std::string draw() {
+    shade();
     frame();
     int row = 0;
     for (const Series& s : d_.series) {
@@ -95,6 +96,12 @@ private:
 
   double px(double v) const { return offset_ + left + x_.share(v) * (width - left - right); }
   double py(double v) const { return height - bottom - y_.share(v) * (height - top - bottom); }
+
+  void shade() {
+    if (d_.shaded.size() != 2) return;
+    out_ += text("<rect x=\"%.2f\" y=\"%g\" width=\"%.2f\" height=\"%g\" fill=\"#dddddd\"/>\n",
+                 px(d_.shaded[0]), top, px(d_.shaded[1]) - px(d_.shaded[0]), height - top - bottom);
+  }
 
   void frame() {
     out_ += text("<rect x=\"%g\" y=\"%g\" width=\"%g\" height=\"%g\" fill=\"none\" "
@@ -181,7 +188,8 @@ std::vector<Facet> facets(const Body& body, double tilt) {
     const Vec3 normal = cross(b - a, d - a);
     if (normal.z <= 0) continue;
     const Vec3 lamp = Vec3{-0.4, 0.5, 0.77} / norm(Vec3{-0.4, 0.5, 0.77});
-    const double light = 0.35 + 0.65 * std::max(0.0, dot(normal, lamp) / norm(normal));
+    const bool dark = t[0] == body.marked || t[1] == body.marked || t[2] == body.marked;
+    const double light = dark ? 0.1 : 0.35 + 0.65 * std::max(0.0, dot(normal, lamp) / norm(normal));
     visible.push_back({a.z + b.z + d.z, {a, b, d}, light});
   }
   std::sort(visible.begin(), visible.end(),

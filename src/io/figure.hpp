@@ -21,6 +21,7 @@ struct Diagram {
   std::string title, x_label, y_label;
   std::vector<Series> series;
   std::vector<double> x_range = {}, y_range = {};  ///< {low, high}, or empty: what the data need
+  std::vector<double> shaded = {};                 ///< {low, high} of x, or empty
 };
 
 /// Diagrams side by side as an SVG document. @throws Error when one has no points
@@ -32,6 +33,7 @@ struct Body {
   std::vector<std::array<double, 3>> x;       ///< vertices
   std::vector<std::array<int, 3>> triangles;  ///< counter-clockwise seen from outside
   std::string colour = "#c0392b";             ///< #rrggbb, where the light falls straight
+  int marked = -1;                            ///< a vertex whose triangles are dark, or none
 };
 
 /// Bodies in one row to one scale, seen along -y tilted downwards by `tilt` degrees (90: from

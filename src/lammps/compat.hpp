@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <string>
 
+#include "compute.h"
 #include "error.h"
 #include "fix.h"
 #include "lammps.h"
@@ -20,6 +21,12 @@ template <class Style> Style* find_fix(LAMMPS_NS::LAMMPS* lmp, const char* style
     if (std::string(lmp->modify->fix[i]->style) == style)
       return dynamic_cast<Style*>(lmp->modify->fix[i]);
   return nullptr;
+}
+
+/// The compute of that name, or nullptr when there is none or it is of another style.
+template <class Style> Style* find_compute(LAMMPS_NS::LAMMPS* lmp, const std::string& id) {
+  const int found = lmp->modify->find_compute(id);
+  return found < 0 ? nullptr : dynamic_cast<Style*>(lmp->modify->compute[found]);
 }
 
 /// A fatal error that this rank alone has met. LAMMPS 29 Sep 2021 aborts all ranks here, with its

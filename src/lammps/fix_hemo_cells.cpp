@@ -5,7 +5,6 @@
 
 #include "comm.h"
 #include "error.h"
-#include "modify.h"
 #include "update.h"
 #include "utils.h"
 
@@ -53,8 +52,7 @@ FixHemoCells::~FixHemoCells() = default;
 int FixHemoCells::setmask() { return FixConst::END_OF_STEP; }
 
 void FixHemoCells::init() {
-  const int found = modify->find_compute(compute_id_);
-  compute_ = found < 0 ? nullptr : dynamic_cast<ComputeHemoCell*>(modify->compute[found]);
+  compute_ = hemomag::lammps::find_compute<ComputeHemoCell>(lmp, compute_id_);
   if (!compute_)
     error->all(FLERR, "fix hemo/cells: there is no compute hemo/cell named " + compute_id_);
   hemomag::lammps::or_fail(lmp, FLERR, [&] {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <limits>
 #include <numbers>
 #include <random>
 #include <string>
@@ -141,6 +143,12 @@ bool good(const MeshQuality& q) {
          q.max_valence <= MeshGates::max_valence;
 }
 
+/// Order of the edges' directions over what MeshOrder allows.
+double order(const MeshQuality& q, int vertices) {
+  const double allowed = std::max(1.0, std::sqrt(642.0 / vertices));
+  return std::max(q.twofold / MeshOrder::twofold, q.sixfold / MeshOrder::sixfold) / allowed;
+}
+
 }  // namespace
 
 double surface_area(const TriangleMesh& mesh) {
@@ -174,13 +182,23 @@ MeshQuality quality(const TriangleMesh& mesh) {
   const std::vector<Edge> edges = topology(mesh).edges;
   std::vector<int> valence(mesh.x.size(), 0);
   q.min_edge = norm(mesh.x[edges[0].b] - mesh.x[edges[0].a]);
+  std::complex<double> twofold = 0, sixfold = 0;
+  double all = 0;
   for (const Edge& e : edges) {
-    const double length = norm(mesh.x[e.b] - mesh.x[e.a]);
+    const Vec3 edge = mesh.x[e.b] - mesh.x[e.a];
+    const double length = norm(edge);
+    const double weight = (edge.x * edge.x + edge.y * edge.y) / length;
+    const double direction = std::atan2(edge.y, edge.x);
+    twofold += std::polar(weight, 2 * direction);
+    sixfold += std::polar(weight, 6 * direction);
+    all += weight;
     q.min_edge = std::min(q.min_edge, length);
     q.max_edge = std::max(q.max_edge, length);
     q.mean_edge += length / static_cast<double>(edges.size());
     ++valence[e.a], ++valence[e.b];
   }
+  q.twofold = std::abs(twofold) / all;
+  q.sixfold = std::abs(sixfold) / all;
   q.min_valence = *std::min_element(valence.begin(), valence.end());
   q.max_valence = *std::max_element(valence.begin(), valence.end());
   return q;
@@ -194,7 +212,9 @@ TriangleMesh evened_mesh(const RestShape& shape, int vertices, std::uint64_t see
     throw Error("mesh: diameter = " + std::to_string(shape.diameter) + ", need a positive length");
   std::mt19937_64 random(seed);
   constexpr int draws = 20, lloyd_steps = 50, least_rounds = 3, most_rounds = 8;
-  for (int draw = 0; draw < draws; ++draw) {
+  TriangleMesh best;
+  double least_order = std::numeric_limits<double>::max();
+  for (int draw = 0; draw < draws && least_order > 1; ++draw) {
     const std::vector<Vec3> sphere = scattered_on_sphere(vertices, random);
     Triangulation net(vertices, triangulate_sphere(sphere));
     TriangleMesh mesh{map_to_cell(sphere, shape), net.triangles()};
@@ -209,10 +229,18 @@ TriangleMesh evened_mesh(const RestShape& shape, int vertices, std::uint64_t see
       if (round < least_rounds) continue;
       TriangleMesh result = mesh;
       offset_to_volume(result, rest_volume(shape));
-      if (good(quality(result))) return result;
+      const MeshQuality q = quality(result);
+      if (good(q)) {
+        if (order(q, vertices) < least_order) {
+          least_order = order(q, vertices);
+          best = std::move(result);
+        }
+        break;
+      }
       equalise *= 0.5;  // the last bad triangles need more freedom of size
     }
   }
+  if (!best.x.empty()) return best;
   throw Error("mesh: no near-equilateral mesh of " + std::to_string(vertices) +
               " vertices with seed " + std::to_string(seed) + "; try another seed or number");
 }

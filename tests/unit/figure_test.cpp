@@ -26,6 +26,14 @@ TEST(Figure, ADiagramHasEveryPointAtItsPlace) {
   EXPECT_EQ(count(bars, "stroke=\"red\" fill=\"none\""), 3);
 }
 
+TEST(Figure, ABandIsShadedBehindTheFrame) {
+  const io::Series s{"", "red", {0, 10}, {0, 2}};
+  io::Diagram d{"t", "x", "y", {s}, {0, 10}, {0, 2}};
+  d.shaded = {2.5, 5};  // a quarter of the frame's width of 344, from 62 + 86
+  const std::string svg = io::draw_diagrams({d});
+  EXPECT_EQ(count(svg, "<rect x=\"148.00\" y=\"34\" width=\"86.00\" height=\"258\""), 1);
+}
+
 TEST(Figure, ADiagramWithoutPointsIsRefused) {
   EXPECT_THROW(io::draw_diagrams({{"empty", "x", "y", {}, {}, {}}}), Error);
 }
@@ -38,6 +46,8 @@ TEST(Figure, ABodyShowsTheFacesTurnedToTheViewer) {
   body.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
   const std::string svg = io::draw_bodies({body}, 90, 1, "1 um");
   EXPECT_EQ(count(svg, "Z\" fill"), 3);
+  body.marked = 1;  // two of the three meet there
+  EXPECT_EQ(count(io::draw_bodies({body}, 90, 1, "1 um"), "fill=\"#130504\""), 2);
 }
 
 }  // namespace

@@ -206,6 +206,31 @@ TEST(RedCellMeshSeeds, EdgesStayWithinThePublishedRange) {
   }
 }
 
+TEST(RedCellMeshSeeds, DirectionsHaveNoOrder) {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    const MeshQuality q = quality(red_cell_mesh(642, d0, seed));
+    EXPECT_LE(q.twofold, MeshOrder::twofold) << seed;
+    EXPECT_LE(q.sixfold, MeshOrder::sixfold) << seed;
+  }
+}
+
+TEST(MeshQuality, OrderOfOneLatticeIsOne) {
+  // Two flat sheets of one triangular lattice, back to back: all edges at 0, 60 or 120 degrees.
+  TriangleMesh sheet;
+  const double h = std::sqrt(3.0) / 2;
+  sheet.x = {{0, 0, 0}, {1, 0, 0}, {0.5, h, 0}, {1.5, h, 0}};
+  sheet.triangles = {{0, 1, 2}, {1, 3, 2}, {0, 2, 1}, {1, 2, 3}};
+  EXPECT_THROW(quality(sheet), Error);  // an edge of four triangles is no surface
+  TriangleMesh tent = {{{0, 0, 0}, {1, 0, 0}, {0.5, h, 0}, {0.5, h / 3, 1e-9}},
+                       {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
+  const MeshQuality q = quality(tent);
+  // Sides at 0, 60, 120 degrees, weight 1; spokes at 30, 150, 270 of length 1/sqrt(3): exp(6 i phi)
+  // is 1 and -1.
+  const double spokes = 1 / std::sqrt(3.0);
+  EXPECT_NEAR(q.sixfold, (1 - spokes) / (1 + spokes), 1e-8);
+  EXPECT_NEAR(q.twofold, 0, 1e-8);
+}
+
 TEST(RedCellMeshSeeds, SameSeedSameMesh) {
   const TriangleMesh one = red_cell_mesh(642, d0, 7), same = red_cell_mesh(642, d0, 7);
   EXPECT_EQ(one.x, same.x);
