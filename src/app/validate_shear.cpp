@@ -198,7 +198,7 @@ void draw_frequencies(const std::string& out, const std::vector<Point>& tumbling
        reduced("Fischer 2015", "black", circles, fischer_here),
        reduced("Keller-Skalak", green, dashes, ks), reduced("rigid cell", blue, dashes, as_rigid)},
       {0, 1.1},
-      {0, 0.5}};
+      {0, 0.7}};
   ratio.shaded = {low, high};
   io::replace_file(out + "/shear_cell_5b.svg", io::draw_diagrams({hertz, ratio}));
 }
