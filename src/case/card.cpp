@@ -5,11 +5,13 @@
 #include <cstdarg>
 #include <cstdio>
 #include <numbers>
+#include <optional>
 
 #include "case/external_field.hpp"
 #include "case/lattice_units.hpp"
 #include "case/script.hpp"
 #include "lammps/fix_hemo_drag.h"
+#include "magnetic/clearance.hpp"
 #include "magnetic/dipole.hpp"
 #include "magnetic/moment.hpp"
 
@@ -36,7 +38,7 @@ Verdict below(double value, double fine, double refused) {
 class CardWriter {
 public:
   CardWriter(const Case& c, const std::vector<CellModel>& models)
-      : c_(c), models_(models), units_(lattice_units(c)), survey_(c) {}
+      : c_(c), models_(models), units_(lattice_units(c)) {}
 
   Card write() {
     key_ = "numerics";
@@ -48,8 +50,7 @@ public:
       key_ = entry_path("cell", m, c_.cells.size());
       cells(m);
     }
-    key_ = "magnetic";
-    field();
+    if (sources_clear()) field();
     for (std::size_t k = 0; k < c_.carriers.size(); ++k) {
       key_ = entry_path("carrier", k, c_.carriers.size());
       carriers(c_.carriers[k]);
@@ -212,11 +213,38 @@ private:
     if (carrier.kind == CarrierKind::worm) worm(carrier);
   }
 
+  /// Carriers go everywhere in the box: no matter of a source may be there, and no table end.
+  bool sources_clear() {
+    const auto n = nodes(c_);
+    const Vec3 low, high{1.0 * n[0], 1.0 * n[1], 1.0 * n[2]};
+    bool clear = true;
+    for (const MagneticSource& s : c_.magnetic.sources) {
+      key_ = s.key;
+      const magnetic::Field alone = external_field(c_, s);
+      for (const auto& source : alone.sources()) {
+        const auto gap = magnetic::gap(source.shape, low, high);
+        const bool touches = gap && gap->distance < magnetic::least_gap;
+        if (gap)
+          add("clear of the channel", text("%.4g um", gap->distance * units_.dx * 1e6),
+              touches ? Verdict::refused : Verdict::fine,
+              "a magnet, coil or wire outside the box of the channel; see position");
+        const bool covers = magnetic::covers(source.shape, low, high);
+        if (!covers)
+          add("table", "ends inside the box", Verdict::refused,
+              "a grid that covers the box of the channel; see position");
+        clear = clear && !touches && covers;
+      }
+    }
+    return clear;
+  }
+
   /// What the fields are throughout the box and the run.
   void field() {
+    key_ = "magnetic";
     if (c_.magnetic.sources.empty()) return;
+    survey_.emplace(c_);
     double gradient = 0, div = 0, rot = 0;
-    survey_.for_each([&](const magnetic::FieldAt& at) {
+    survey_->for_each([&](const magnetic::FieldAt& at) {
       strongest_ = std::max(strongest_, norm(at.B) * units_.magnetic_field());
       gradient = std::max(gradient, magnetic::gradient_norm(at));
       div = std::max(div, std::fabs(magnetic::divergence(at)));
@@ -247,12 +275,11 @@ private:
 
   /// Drift under the largest force that the fields exert anywhere in the box.
   void pull(const Carrier& carrier) {
-    if (c_.magnetic.sources.empty()) return;
-    const double chi_volume = susceptible_volume(carrier) / std::pow(units_.dx, 3);
+    if (!survey_) return;
+    const auto law = magnetisation(c_, carrier);
     double largest = 0;
-    survey_.for_each([&](const magnetic::FieldAt& at) {
-      const Vec3 m = magnetic::linear_moment(chi_volume, at.B);
-      largest = std::max(largest, norm(magnetic::gradient_force(m, at)));
+    survey_->for_each([&](const magnetic::FieldAt& at) {
+      largest = std::max(largest, norm(magnetic::gradient_force(law.moment(at.B), at)));
     });
     const double force = largest * units_.force();
     const double drift = force / stokes_friction(c_, carrier), per_step = drift / units_.velocity();
@@ -267,10 +294,18 @@ private:
         "a weaker field or a lower cell_reynolds");
   }
 
+  /// In the strongest field, over sqrt(mu*): the laws of the magnetic room, in which mu* is one,
+  /// then give SI forces.
+  double largest_moment(const Carrier& carrier) const {
+    const double unit = units_.magnetic_field();
+    const Vec3 m = magnetisation(c_, carrier).moment({0, 0, strongest_ / unit});
+    return norm(m) * unit * std::pow(units_.dx, 3) / std::sqrt(vacuum_permeability);
+  }
+
   /// Strength and stiffness of carrier-carrier contact in the strongest field.
   void contact(const Carrier& carrier) {
     const double d = 2 * carrier.radius;
-    const double m = susceptible_volume(carrier) * strongest_ / std::sqrt(vacuum_permeability);
+    const double m = largest_moment(carrier);
     const double lambda = m * m / (4 * std::numbers::pi * d * d * d * kBT);
     add("dipole strength lambda", text("%.3g (contact energy over 2 kBT)", lambda));
     const double substeps = std::max(
@@ -280,12 +315,11 @@ private:
         text("at most %d: lower B0 or dt", LAMMPS_NS::FixHemoDrag::most_substeps));
   }
 
-  /// Contact stiffness in the strongest field [N/m]; with B over sqrt(mu*) the laws of the magnetic
-  /// room, in which mu* is one, give SI forces.
+  /// Contact stiffness in the strongest field [N/m].
   double contact_stiffness(const Carrier& carrier) const {
     if (!c_.magnetic.dipoles) return 0;
     const double d = 2 * carrier.radius;
-    const double m = susceptible_volume(carrier) * strongest_ / std::sqrt(vacuum_permeability);
+    const double m = largest_moment(carrier);
     const double pull = magnetic::contact_pull(m, m, d);
     return c_.contact.repulsion == Repulsion::soft
                ? magnetic::soft_stiffness(pull, soft_kappa, d)
@@ -365,9 +399,9 @@ private:
   const Case& c_;
   const std::vector<CellModel>& models_;
   LatticeUnits units_;
-  FieldSurvey survey_;
-  double strongest_ = 0;  // largest |B| [T]
-  std::string key_;       // of the part of the case a line is about
+  std::optional<FieldSurvey> survey_;  // of fields whose sources are clear of the box
+  double strongest_ = 0;               // largest |B| [T]
+  std::string key_;                    // of the part of the case a line is about
   Card card_;
 };
 
