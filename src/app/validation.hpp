@@ -60,6 +60,8 @@ std::vector<Validation> curved_validations();
 std::vector<Validation> moduli_validations();
 std::vector<Validation> stretch_validations();
 std::vector<Validation> cell_validations();
+/// Of magnetic fields (validate_field.cpp).
+std::vector<Validation> field_validations();
 
 /// Run the named ones (all if none) and print them, as a table or as one JSON object a line. Rank 0
 /// works alone.

@@ -287,7 +287,7 @@ private:
     growth_time(carrier);
     add("drift", text("%.4g mm/s, %.3g dx a step", drift * 1e3, per_step),
         below(per_step, 0.05, 0.1),
-        text("under 0.1 dx a step: at most %.3g of this field, or a smaller dt",
+        text("under 0.1 dx a step: at most %.3g times this field, or a smaller dt",
              std::sqrt(0.1 / per_step)));
     const double re = units_.density * drift * 2 * carrier.radius / c_.fluid.viscosity;
     add("Reynolds number, carrier", text("%.3g", re), below(re, 0.1, 0.5),
