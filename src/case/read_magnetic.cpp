@@ -160,6 +160,8 @@ void read_conductor(MagneticSource& s, const Table& t) {
 void read_table(MagneticSource& s, const Table& t, const std::string& case_path) {
   t.require("file");
   s.file = (std::filesystem::path(case_path).parent_path() / t.word("file")).string();
+  if (!std::filesystem::is_regular_file(s.file))
+    t.fail("file", s.file + ": cannot be read; a readable CSV file of B on a grid is expected");
   try {
     s.table = std::make_shared<const lattice::FieldTable>(io::read_field_table(s.file));
   } catch (const Error& e) {
