@@ -117,7 +117,7 @@ int bench(const std::vector<std::string>& names, bool json) {
     const char* name;
     void (*run)(bool json);
   };
-  constexpr Benchmark all[] = {{"fluid", bench_fluid}, {"membrane", bench_membrane}};
+  constexpr Benchmark all[] = {{"fluid", bench_fluid}, {"membrane", bench_membrane}, {"field", bench_field}};
   for (const std::string& name : names)
     if (std::none_of(std::begin(all), std::end(all),
                      [&](const auto& b) { return name == b.name; })) {
@@ -126,7 +126,7 @@ int bench(const std::vector<std::string>& names, bool json) {
       if (rank == 0)
         std::fprintf(stderr,
                      "hemomag bench: %s is not available in this version; accepted: fluid, "
-                     "membrane\n",
+                     "membrane, field\n",
                      name.c_str());
       return 2;
     }

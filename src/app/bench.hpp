@@ -13,4 +13,7 @@ int bench(const std::vector<std::string>& names, bool json);
 /// line on rank 0. Collective.
 void bench_membrane(bool json);
 
+/// B and its gradient at one place, in ns by kind of source. Collective.
+void bench_field(bool json);
+
 }  // namespace hemomag::app

@@ -61,6 +61,8 @@ std::vector<Validation> moduli_validations();
 std::vector<Validation> stretch_validations();
 std::vector<Validation> cell_validations();
 std::vector<Validation> shear_validations();
+/// Of magnetic fields (validate_field.cpp).
+std::vector<Validation> field_validations();
 
 /// Run the named ones (all if none) and print them, as a table or as one JSON object a line. Rank 0
 /// works alone.

@@ -90,24 +90,12 @@ long steps(const Case& c) {
   return c.run.steps ? *c.run.steps : steps_in(*c.run.time, lattice_units(c));
 }
 
+double magnetic_volume(const Carrier& carrier) {
+  return carrier.magnetic_fraction * 4.0 / 3 * std::numbers::pi * std::pow(carrier.radius, 3);
+}
+
 double susceptible_volume(const Carrier& carrier) {
-  return carrier.susceptibility * carrier.magnetic_fraction * 4.0 / 3 * std::numbers::pi *
-         std::pow(carrier.radius, 3);
-}
-
-GradientField gradient_field(const Case& c) {
-  const auto& m = c.magnetic;
-  const auto axis = static_cast<std::size_t>(m.axis);
-  if (m.gradient) return {*m.gradient, m.zero_at[axis]};
-  return {m.B0 / c.channel.size[axis], c.channel.size[axis]};
-}
-
-double strongest_field(const Case& c) {
-  if (c.magnetic.field == FieldKind::none) return 0;
-  if (c.magnetic.field == FieldKind::uniform) return std::fabs(c.magnetic.B0);
-  const auto g = gradient_field(c);
-  const double length = c.channel.size[static_cast<std::size_t>(c.magnetic.axis)];
-  return std::fabs(g.slope) * std::max(std::fabs(g.zero), std::fabs(length - g.zero));
+  return carrier.susceptibility * magnetic_volume(carrier);
 }
 
 double stokes_friction(const Case& c, const Carrier& carrier) {

@@ -97,6 +97,26 @@ std::array<double, 3> Table::vector(const char* name) const {
   return v;
 }
 
+std::optional<Vec3> Table::direction(const char* name) const {
+  const Key& key = *find_key(schema_, name);
+  Vec3 v;
+  const std::string word = has(name) ? node(name).value_or(std::string()) : key.fallback;
+  if (!has(name) && word.empty()) return std::nullopt;
+  if (word == "x" || word == "y" || word == "z") {
+    v[static_cast<std::size_t>(word[0] - 'x')] = 1;
+    return v;
+  }
+  const auto* list = node(name).as_array();
+  if (!list || list->size() != 3) wrong_type(name, key);
+  for (std::size_t d = 0; d < 3; ++d) {
+    if (!list->get(d)->is_number()) wrong_type(name, key);
+    v[d] = *list->get(d)->value<double>();
+  }
+  if (!(norm(v) > 0) || !std::isfinite(norm(v)))
+    fail(name, "has no direction; accepted: " + accepted(key));
+  return v / norm(v);
+}
+
 bool Table::is_word(const char* name, const char* word) const {
   return has(name) && node(name).value<std::string>() == std::optional<std::string>(word);
 }
@@ -167,6 +187,35 @@ double Table::in_range(const char* name, const Key& key, double value) const {
   if (!std::isfinite(value) || !low || value > key.max)
     fail(name, "is out of range; accepted: " + accepted(key));
   return value;
+}
+
+Table section(const Source& source, const char* name) {
+  const toml::node* node = source.root.get(name);
+  if (node && !node->is_table())
+    source.fail(*node, name,
+                std::string("is ") + type_name(*node) + "; a [" + name + "] table is expected");
+  return Table(source, node ? node->as_table() : nullptr, name, name);
+}
+
+std::vector<Table> entries(const Source& source, const toml::node* node, const char* schema,
+                           const char* path) {
+  std::vector<Table> tables;
+  if (!node) return tables;
+  const auto* list = node->as_array();
+  if (!list)
+    source.fail(*node, path,
+                std::string("is ") + type_name(*node) + "; [[" + path + "]] entries are expected");
+  for (std::size_t k = 0; k < list->size(); ++k) {
+    if (!list->get(k)->is_table())
+      source.fail(*list->get(k), path, std::string("[[") + path + "]] entries are expected");
+    tables.emplace_back(source, list->get(k)->as_table(), schema,
+                        entry_path(path, k, list->size()));
+  }
+  return tables;
+}
+
+std::string entry_path(const char* name, std::size_t k, std::size_t count) {
+  return count == 1 ? name : std::string(name) + "." + std::to_string(k);
 }
 
 }  // namespace hemomag::case_

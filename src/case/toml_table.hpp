@@ -3,9 +3,11 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <toml++/toml.h>
 
+#include "base/vec3.hpp"
 #include "case/keys.hpp"
 
 namespace hemomag::case_ {
@@ -43,6 +45,8 @@ public:
   double quantity(const char* name) const;
   std::optional<double> optional_quantity(const char* name) const;
   std::array<double, 3> vector(const char* name) const;
+  /// A vector of length one; empty without the key and a default.
+  std::optional<Vec3> direction(const char* name) const;
 
   /// True when the key holds this one of its words, e.g. "never".
   bool is_word(const char* name, const char* word) const;
@@ -67,5 +71,12 @@ private:
   const toml::table* table_;
   std::string schema_, path_;
 };
+
+/// The table [name].
+Table section(const Source& source, const char* name);
+
+/// The entries of [[path]], which `node` holds, checked as the table `schema`; none without it.
+std::vector<Table> entries(const Source& source, const toml::node* node, const char* schema,
+                           const char* path);
 
 }  // namespace hemomag::case_

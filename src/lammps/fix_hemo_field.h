@@ -7,11 +7,13 @@ FixStyle(hemo/field,FixHemoField)
 #ifndef LMP_FIX_HEMO_FIELD_H
 #define LMP_FIX_HEMO_FIELD_H
 
+#include <string>
 #include <vector>
 
 #include "fix.h"
 
 #include "magnetic/field.hpp"
+#include "magnetic/moment.hpp"
 
 namespace LAMMPS_NS {
 
@@ -21,6 +23,7 @@ public:
   FixHemoField(LAMMPS*, int, char**);
   ~FixHemoField() override;
   int setmask() override;
+  void init() override;
   void setup_pre_force(int) override;
   void setup(int) override;
   void pre_force(int) override;
@@ -41,12 +44,14 @@ public:
   double** moments() { return moment_; }
 
 private:
-  int parse_field(int narg, char** arg, int at);
+  void parse(const std::vector<std::string>& words);
+  hemomag::magnetic::Magnetisation& of_type(const std::string& word);
 
-  std::vector<double> chi_volume_;  // by type
-  hemomag::magnetic::Field field_ = hemomag::magnetic::NoField{};
+  std::vector<hemomag::magnetic::Magnetisation> magnetisation_;  // by type
+  hemomag::magnetic::Field field_;
   double** moment_ = nullptr;
-  double sums_[4] = {};  // energy, force, on this rank in the last step
+  std::vector<hemomag::Vec3> force_;  // of owned atoms, from pre_force to post_force
+  double sums_[4] = {};               // energy, force, on this rank in the last step
 };
 
 }  // namespace LAMMPS_NS
