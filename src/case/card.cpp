@@ -201,9 +201,16 @@ private:
         too_large ? Verdict::refused : Verdict::fine,
         text("radius under the kernel's own, %.4g nm; use a larger dx", R * 1e9));
     if (too_large) return;
+    if (carrier.density) inertia(carrier);
     pull(carrier);
     if (c_.magnetic.dipoles) contact(carrier);
     if (carrier.kind == CarrierKind::worm) worm(carrier);
+  }
+
+  void inertia(const Carrier& carrier) {
+    const double relaxation = inertial_mass(c_, carrier) / bare_friction(c_, carrier);
+    add("carrier inertia",
+        text("m/Gamma = %.3g us, %.3g steps", relaxation * 1e6, relaxation / units_.dt));
   }
 
   /// Drift in the strongest field of a gradient.
@@ -233,6 +240,9 @@ private:
         susceptible_volume(carrier) * strongest_field(c_) / std::sqrt(vacuum_permeability);
     const double lambda = m * m / (4 * std::numbers::pi * d * d * d * kBT);
     add("dipole strength lambda", text("%.3g (contact energy over 2 kBT)", lambda));
+    const double cutoff = dipole_cutoff(c_) * units_.dx;
+    add("dipole cut-off", text("%.4g um, neglects %.2g of the contact pull", cutoff * 1e6,
+                               magnetic::neglected_pull(d, cutoff)));
     const double substeps = std::max(
         1.0, std::ceil(2 * contact_stiffness(carrier) * units_.dt / bare_friction(c_, carrier)));
     add("contact sub-steps", text("%.0f", substeps),
@@ -249,7 +259,7 @@ private:
         susceptible_volume(carrier) * strongest_field(c_) / std::sqrt(vacuum_permeability);
     const double pull = magnetic::contact_pull(m, m, d);
     return c_.contact.repulsion == Repulsion::soft
-               ? magnetic::soft_stiffness(pull, soft_kappa, d)
+               ? magnetic::soft_stiffness(pull, c_.contact.repulsion_kappa, d)
                : magnetic::paper_stiffness(pull, 0.1 * kBT, 0.1 * carrier.radius);
   }
 

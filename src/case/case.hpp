@@ -84,6 +84,7 @@ struct Carrier {
   double radius = 0;           ///< [m]
   double susceptibility = 0.4;
   double magnetic_fraction = 0.6;
+  std::optional<double> density;  ///< [kg/m3]; without it there is no inertia
   bool feedback = true;
 };
 
@@ -97,6 +98,7 @@ struct Contact {
   double epsilon = 1.0;              ///< [kBT] at 3286 vertices
   double plate_sigma = 0.25e-6;      ///< [m]
   Repulsion repulsion = Repulsion::soft;
+  double repulsion_kappa = 30;  ///< of the soft one
 };
 
 struct Magnetic {

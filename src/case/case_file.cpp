@@ -307,7 +307,7 @@ Cell read_cell(const Table& t, const std::string& case_path) {
   return cell;
 }
 
-Carrier read_carrier(const Table& t) {
+Carrier read_carrier(const Table& t, double fluid_density) {
   Carrier carrier;
   carrier.kind = t.word("kind") == "worm" ? CarrierKind::worm : CarrierKind::particle;
   for (const char* key : {"beads", "stretching", "bending"})
@@ -320,7 +320,11 @@ Carrier read_carrier(const Table& t) {
   carrier.radius = t.quantity("radius");
   carrier.susceptibility = t.number("susceptibility");
   carrier.magnetic_fraction = t.number("magnetic_fraction");
+  carrier.density = t.optional_quantity("density");
   carrier.feedback = t.flag("feedback");
+  if (carrier.density && carrier.feedback && *carrier.density < fluid_density)
+    t.fail("density", "is below the fluid's, whose mass is already there; accepted: at least "
+                      "fluid.density, or feedback = false");
   return carrier;
 }
 
@@ -334,6 +338,10 @@ void read_contact(Case& c, const Table& t) {
   c.contact.epsilon = t.number("epsilon");
   c.contact.plate_sigma = t.quantity("plate_sigma");
   c.contact.repulsion = t.word("repulsion") == "soft" ? Repulsion::soft : Repulsion::paper;
+  if (c.contact.repulsion == Repulsion::paper && t.has("repulsion_kappa"))
+    t.fail("repulsion_kappa", "is of the soft repulsion; accepted: repulsion = \"soft\", or leave "
+                              "it out");
+  c.contact.repulsion_kappa = t.number("repulsion_kappa");
 }
 
 void read_magnetic(Case& c, const Table& t, bool given) {
@@ -472,7 +480,7 @@ Case read_case(const std::string& path, const std::vector<std::string>& override
   read_vessel(c, channel, path);
   for (const Table& t : entries(source, "cell")) c.cells.push_back(read_cell(t, path));
   for (const Table& t : entries(source, "carrier")) {
-    c.carriers.push_back(read_carrier(t));
+    c.carriers.push_back(read_carrier(t, c.fluid.density));
     if (c.carriers.back().feedback != c.carriers.front().feedback)
       t.fail("feedback", "differs from another [[carrier]]; accepted: the same for all");
   }

@@ -62,10 +62,12 @@ void PairHemoDipole::coeff(int narg, char** arg) {
   const std::string kind = arg[3];
   if (kind == "soft" && narg == 5) {
     p.kappa = utils::numeric(FLERR, arg[4], false, lmp);
+    p.reach2 = std::pow(magnetic::soft_reach(p.kappa, p.contact_distance), 2);
   } else if (kind == "paper" && narg == 6) {
     p.repulsion = Repulsion::paper;
     p.epsilon = utils::numeric(FLERR, arg[4], false, lmp);
     p.sigma = utils::numeric(FLERR, arg[5], false, lmp);
+    p.reach2 = std::pow(p.contact_distance + p.sigma, 2);
   } else {
     error->all(FLERR, usage);
   }
@@ -98,28 +100,34 @@ double PairHemoDipole::init_one(int i, int j) {
 }
 
 /// Force on j and energy, r from i to j.
-magnetic::PairForce PairHemoDipole::force_between(int i, int j, const Vec3& r) {
+magnetic::PairForce PairHemoDipole::force_between(int i, int j, const Vec3& r) const {
   const auto* m = reinterpret_cast<const Vec3*>(field_->moments()[0]);
   const Pairing& p = between(atom->type[i], atom->type[j]);
   auto pair = magnetic::dipole_dipole(m[i], m[j], r);
-  magnetic::PairForce repulsion{};
+  const auto add = [&](const magnetic::PairForce& more) {
+    pair.on_j += more.on_j;
+    pair.energy += more.energy;
+  };
   if (p.repulsion == Repulsion::soft) {
-    const double pull = magnetic::contact_pull(norm(m[i]), norm(m[j]), p.contact_distance);
-    repulsion = magnetic::soft_repulsion(pull, p.kappa, p.contact_distance, r);
+    if (norm2(r) < p.reach2)
+      add(magnetic::soft_repulsion(
+          magnetic::contact_pull(norm(m[i]), norm(m[j]), p.contact_distance), p.kappa,
+          p.contact_distance, r));
   } else {
-    if (norm(r) <= p.contact_distance)
+    if (norm2(r) <= p.contact_distance * p.contact_distance)
       hemomag::lammps::fail_here(
           lmp, FLERR,
           "pair_style hemo/dipole: step " + std::to_string(update->ntimestep) + ": carriers " +
               std::to_string(atom->tag[i]) + " and " + std::to_string(atom->tag[j]) +
               " touch, where the repulsion of Eq. 26 is singular (use soft)");
-    repulsion = magnetic::paper_repulsion(p.epsilon, p.sigma, p.contact_distance, r);
+    if (norm2(r) < p.reach2)
+      add(magnetic::paper_repulsion(p.epsilon, p.sigma, p.contact_distance, r));
   }
-  return {pair.on_j + repulsion.on_j, pair.energy + repulsion.energy};
+  return pair;
 }
 
 /// visit(i, j, r) for every pair of the list within the cut-off.
-template <class Visit> void PairHemoDipole::for_each_pair(double** x_, Visit visit) {
+template <class Visit> void PairHemoDipole::for_each_pair(double** x_, Visit visit) const {
   if (list->inum == 0) return;
   const auto* x = reinterpret_cast<const Vec3*>(x_[0]);
   const double cut2 = cutoff_ * cutoff_;
