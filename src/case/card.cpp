@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <numbers>
 
+#include "case/external_field.hpp"
 #include "case/lattice_units.hpp"
 #include "case/script.hpp"
 #include "lammps/fix_hemo_drag.h"
@@ -24,6 +25,9 @@ namespace {
   return buffer;
 }
 
+/// Share of the largest gradient from which div B or curl B is noted: a smooth table has less.
+constexpr double noted_violation = 0.01;
+
 /// Small is fine, then doubtful, then refused.
 Verdict below(double value, double fine, double refused) {
   return value <= fine ? Verdict::fine : value <= refused ? Verdict::doubtful : Verdict::refused;
@@ -32,7 +36,7 @@ Verdict below(double value, double fine, double refused) {
 class CardWriter {
 public:
   CardWriter(const Case& c, const std::vector<CellModel>& models)
-      : c_(c), models_(models), units_(lattice_units(c)) {}
+      : c_(c), models_(models), units_(lattice_units(c)), survey_(c) {}
 
   Card write() {
     key_ = "numerics";
@@ -44,6 +48,8 @@ public:
       key_ = entry_path("cell", m, c_.cells.size());
       cells(m);
     }
+    key_ = "magnetic";
+    field();
     for (std::size_t k = 0; k < c_.carriers.size(); ++k) {
       key_ = entry_path("carrier", k, c_.carriers.size());
       carriers(c_.carriers[k]);
@@ -213,31 +219,65 @@ private:
         text("m/Gamma = %.3g us, %.3g steps", relaxation * 1e6, relaxation / units_.dt));
   }
 
-  /// Drift in the strongest field of a gradient.
-  void pull(const Carrier& carrier) {
-    if (c_.magnetic.field != FieldKind::gradient) return;
-    const double B = strongest_field(c_), slope = std::fabs(gradient_field(c_).slope);
-    const double force = susceptible_volume(carrier) * B * slope / vacuum_permeability;
-    const double drift = force / stokes_friction(c_, carrier), per_step = drift / units_.velocity();
-    add("largest pull", text("%.4g pN at %.4g T", force * 1e12, B));
-    if (slope > 0)
+  /// What the fields are throughout the box and the run.
+  void field() {
+    if (c_.magnetic.sources.empty()) return;
+    double gradient = 0, div = 0, rot = 0;
+    survey_.for_each([&](const magnetic::FieldAt& at) {
+      strongest_ = std::max(strongest_, norm(at.B) * units_.magnetic_field());
+      gradient = std::max(gradient, magnetic::gradient_norm(at));
+      div = std::max(div, std::fabs(magnetic::divergence(at)));
+      rot = std::max(rot, norm(magnetic::curl(at)));
+    });
+    const double T_m = units_.magnetic_field() / units_.dx;
+    add("largest field", text("%.4g T", strongest_));
+    add("largest field gradient", text("%.4g T/m", gradient * T_m));
+    const auto violated = [&](const char* name, double value) {
+      if (value > noted_violation * gradient)
+        add(name, text("%.3g T/m", value * T_m), Verdict::note,
+            "is zero in nature: a model, not a field that a magnet can make");
+    };
+    violated("div B", div);
+    violated("curl B", rot);
+  }
+
+  /// The field of the paper grows along one axis, and the distance from its zero with exp(t/T_e).
+  void growth_time(const Carrier& carrier) {
+    const auto& sources = c_.magnetic.sources;
+    if (sources.size() != 1 || sources[0].field != FieldKind::gradient) return;
+    const double slope = gradient_field(c_, sources[0]).slope;
+    if (slope != 0)
       add("magnetic time T_e",
           text("%.4g ms", 1e3 * stokes_friction(c_, carrier) * vacuum_permeability /
                               (susceptible_volume(carrier) * slope * slope)));
+  }
+
+  /// Drift under the largest force that the fields exert anywhere in the box.
+  void pull(const Carrier& carrier) {
+    if (c_.magnetic.sources.empty()) return;
+    const double chi_volume = susceptible_volume(carrier) / std::pow(units_.dx, 3);
+    double largest = 0;
+    survey_.for_each([&](const magnetic::FieldAt& at) {
+      const Vec3 m = magnetic::linear_moment(chi_volume, at.B);
+      largest = std::max(largest, norm(magnetic::gradient_force(m, at)));
+    });
+    const double force = largest * units_.force();
+    const double drift = force / stokes_friction(c_, carrier), per_step = drift / units_.velocity();
+    add("largest pull", text("%.4g pN", force * 1e12));
+    growth_time(carrier);
     add("drift", text("%.4g mm/s, %.3g dx a step", drift * 1e3, per_step),
         below(per_step, 0.05, 0.1),
-        text("under 0.1 dx a step: at most %.3g T here, or a smaller dt",
-             B * std::sqrt(0.1 / per_step)));
+        text("under 0.1 dx a step: at most %.3g of this field, or a smaller dt",
+             std::sqrt(0.1 / per_step)));
     const double re = units_.density * drift * 2 * carrier.radius / c_.fluid.viscosity;
     add("Reynolds number, carrier", text("%.3g", re), below(re, 0.1, 0.5),
-        "lower B0 or cell_reynolds");
+        "a weaker field or a lower cell_reynolds");
   }
 
   /// Strength and stiffness of carrier-carrier contact in the strongest field.
   void contact(const Carrier& carrier) {
     const double d = 2 * carrier.radius;
-    const double m =
-        susceptible_volume(carrier) * strongest_field(c_) / std::sqrt(vacuum_permeability);
+    const double m = susceptible_volume(carrier) * strongest_ / std::sqrt(vacuum_permeability);
     const double lambda = m * m / (4 * std::numbers::pi * d * d * d * kBT);
     add("dipole strength lambda", text("%.3g (contact energy over 2 kBT)", lambda));
     const double cutoff = dipole_cutoff(c_) * units_.dx;
@@ -255,8 +295,7 @@ private:
   double contact_stiffness(const Carrier& carrier) const {
     if (!c_.magnetic.dipoles) return 0;
     const double d = 2 * carrier.radius;
-    const double m =
-        susceptible_volume(carrier) * strongest_field(c_) / std::sqrt(vacuum_permeability);
+    const double m = susceptible_volume(carrier) * strongest_ / std::sqrt(vacuum_permeability);
     const double pull = magnetic::contact_pull(m, m, d);
     return c_.contact.repulsion == Repulsion::soft
                ? magnetic::soft_stiffness(pull, c_.contact.repulsion_kappa, d)
@@ -336,12 +375,23 @@ private:
   const Case& c_;
   const std::vector<CellModel>& models_;
   LatticeUnits units_;
-  std::string key_;  // of the part of the case a line is about
+  FieldSurvey survey_;
+  double strongest_ = 0;  // largest |B| [T]
+  std::string key_;       // of the part of the case a line is about
   Card card_;
 };
 
 const char* word(Verdict verdict) {
-  return verdict == Verdict::fine ? "fine" : verdict == Verdict::doubtful ? "doubtful" : "refused";
+  switch (verdict) {
+  case Verdict::fine:
+    return "fine";
+  case Verdict::note:
+    return "note";
+  case Verdict::doubtful:
+    return "doubtful";
+  default:
+    return "refused";
+  }
 }
 
 std::string print_line(const CardLine& l) {

@@ -7,7 +7,8 @@
 
 namespace hemomag::case_ {
 
-enum class Verdict { fine, doubtful, refused };
+/// A note is no reproach: something to know about the case.
+enum class Verdict { fine, note, doubtful, refused };
 
 /// One line of the card: a number, its verdict, and what to change when it is not fine.
 struct CardLine {

@@ -23,7 +23,8 @@ enum class CellKind { rbc, platelet, white };
 enum class StressFree { rest_shape, sphere };
 enum class CarrierKind { particle, worm };
 enum class Repulsion { soft, paper };
-enum class FieldKind { none, uniform, gradient };
+enum class FieldKind { uniform, gradient, quadrupole, rotating };
+enum class TimeCourse { constant, sine, ramp, pulse };
 enum class LayerWalls { lower, both, vessel };
 
 struct Channel {
@@ -101,12 +102,22 @@ struct Contact {
   double repulsion_kappa = 30;  ///< of the soft one
 };
 
-struct Magnetic {
-  FieldKind field = FieldKind::none;
-  double B0 = 0;                    ///< [T]
-  int axis = 2;                     ///< of a gradient or uniform field
-  std::optional<double> gradient;   ///< [T/m]; else B0 (1 - z/H) with the pull down
+/// One of the fields that add up; which of its values count depends on the kind.
+struct MagneticSource {
+  FieldKind field = FieldKind::gradient;
+  double B0 = 0.05;                ///< [T]
+  int axis = 2;                    ///< of a gradient or uniform field
+  std::string plane = "yz";        ///< two axes: of a quadrupole, and from which to which B rotates
+  std::optional<double> gradient;  ///< [T/m]; else B0 (1 - z/H) with the pull down
   std::array<double, 3> zero_at{};  ///< [m], where an explicit gradient's field vanishes
+  TimeCourse time = TimeCourse::constant;
+  double frequency = 0;  ///< [Hz], of a rotating field or a sine
+  double start = 0;      ///< [s], of a ramp or pulse
+  double duration = 0;   ///< [s], of a ramp or pulse
+};
+
+struct Magnetic {
+  std::vector<MagneticSource> sources;  ///< empty: no field
   bool dipoles = true;
 };
 

@@ -8,6 +8,7 @@
 #include "case/cell_model.hpp"
 #include "case/keys.hpp"
 #include "case/lattice_units.hpp"
+#include "case/read_magnetic.hpp"
 #include "case/toml_table.hpp"
 #include "case/vessel.hpp"
 
@@ -79,31 +80,6 @@ void apply_override(Source& source, const std::string& override_text) {
     table.insert_or_assign(parts.back(), value);
   }
   source.overridden[table.get(parts.back())] = key;
-}
-
-Table section(const Source& source, const char* name) {
-  const toml::node* node = source.root.get(name);
-  if (node && !node->is_table())
-    source.fail(*node, name,
-                std::string("is ") + type_name(*node) + "; a [" + name + "] table is expected");
-  return Table(source, node ? node->as_table() : nullptr, name, name);
-}
-
-/// The entries of [[name]].
-std::vector<Table> entries(const Source& source, const char* name) {
-  std::vector<Table> tables;
-  const toml::node* node = source.root.get(name);
-  if (!node) return tables;
-  const auto* list = node->as_array();
-  if (!list)
-    source.fail(*node, name,
-                std::string("is ") + type_name(*node) + "; [[" + name + "]] entries are expected");
-  for (std::size_t k = 0; k < list->size(); ++k) {
-    if (!list->get(k)->is_table())
-      source.fail(*list->get(k), name, std::string("[[") + name + "]] entries are expected");
-    tables.emplace_back(source, list->get(k)->as_table(), name, entry_path(name, k, list->size()));
-  }
-  return tables;
 }
 
 Boundary boundary(const std::string& word) {
@@ -344,27 +320,6 @@ void read_contact(Case& c, const Table& t) {
   c.contact.repulsion_kappa = t.number("repulsion_kappa");
 }
 
-void read_magnetic(Case& c, const Table& t, bool given) {
-  if (!given) return;
-  auto& m = c.magnetic;
-  const std::string field = t.word("field");
-  m.field = field == "none"      ? FieldKind::none
-            : field == "uniform" ? FieldKind::uniform
-                                 : FieldKind::gradient;
-  m.B0 = t.quantity("B0");
-  m.axis = t.word("axis")[0] - 'x';
-  m.gradient = t.optional_quantity("gradient");
-  m.zero_at = t.vector("zero_at");
-  m.dipoles = t.flag("dipoles");
-  if (m.gradient && m.field != FieldKind::gradient)
-    t.fail("gradient", "needs field = \"gradient\"; accepted: that, or leave it out");
-  if (m.gradient && t.has("B0")) t.fail("gradient", "excludes B0; accepted: one of the two");
-  if (t.has("zero_at") && !m.gradient)
-    t.fail("zero_at", "needs an explicit gradient; accepted: gradient = \"... T/m\" with it");
-  if (m.field == FieldKind::gradient && !m.gradient && c.channel.boundary != Boundary::plates)
-    t.missing("gradient", "is missing; gradient = \"... T/m\" is required without plates");
-}
-
 void read_analysis(Case& c, const Table& t) {
   auto& analysis = c.analysis;
   t.refuse_later("layer");
@@ -439,10 +394,6 @@ std::string effective_text(Source& source, const Case& c, const std::string& tex
 
 }  // namespace
 
-std::string entry_path(const char* name, std::size_t k, std::size_t count) {
-  return count == 1 ? name : std::string(name) + "." + std::to_string(k);
-}
-
 std::string position(const Case& c, std::string key) {
   const std::string full = key;
   while (!key.empty()) {
@@ -478,14 +429,14 @@ Case read_case(const std::string& path, const std::vector<std::string>& override
   check_size(c, channel);
   read_numerics(c, numerics);
   read_vessel(c, channel, path);
-  for (const Table& t : entries(source, "cell")) c.cells.push_back(read_cell(t, path));
-  for (const Table& t : entries(source, "carrier")) {
+  for (const Table& t : entries(source, source.root.get("cell"), "cell", "cell")) c.cells.push_back(read_cell(t, path));
+  for (const Table& t : entries(source, source.root.get("carrier"), "carrier", "carrier")) {
     c.carriers.push_back(read_carrier(t, c.fluid.density));
     if (c.carriers.back().feedback != c.carriers.front().feedback)
       t.fail("feedback", "differs from another [[carrier]]; accepted: the same for all");
   }
   read_contact(c, section(source, "contact"));
-  read_magnetic(c, section(source, "magnetic"), source.root.contains("magnetic"));
+  read_magnetic(c, source);
   const Table analysis = section(source, "analysis");
   read_analysis(c, analysis);
   read_run(c, section(source, "run"), analysis);

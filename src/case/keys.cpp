@@ -36,6 +36,9 @@ Key vector(const char* t, const char* n, const Dimension& d, double min, bool ab
            const char* fallback, const char* help) {
   return {t, n, Kind::vector, &d, min, inf, above, fallback, {}, {}, help};
 }
+Key tables(const char* t, const char* n, const char* help) {
+  return {t, n, Kind::tables, nullptr, 0, 0, false, "", {}, {}, help};
+}
 
 const std::vector<Key>& table() {
   using namespace dimension;
@@ -153,16 +156,28 @@ const std::vector<Key>& table() {
              "carrier-carrier: exponential, or Eq. 26"),
       number("contact", "repulsion_kappa", 0, inf, true, "30",
              "steepness of the exponential: it falls by 1/e over 1/kappa of the contact distance"),
-      choice("magnetic", "field", {"none", "uniform", "gradient"},
-             {"quadrupole", "rotating", "magnet", "coil", "wire", "table"}, "gradient",
-             "external field (none without a [magnetic] table); gradient: |B| = B0 (1 - z/H), the "
-             "pull is down, or an explicit gradient"),
-      amount("magnetic", "B0", field, 0, inf, false, "0.05 T", "strength"),
+      choice("magnetic", "field", {"none", "uniform", "gradient", "quadrupole", "rotating"},
+             {"magnet", "coil", "wire", "table"}, "gradient",
+             "external field (none without a [magnetic] table): see Magnetic fields"),
+      tables("magnetic", "source", "fields that add up, each with the keys of [magnetic]"),
+      amount("magnetic", "B0", field, 0, inf, false, "0.05 T",
+             "strength of a uniform, gradient or rotating field"),
       choice("magnetic", "axis", {"x", "y", "z"}, {}, "z", "of a uniform field or a gradient"),
       amount("magnetic", "gradient", field_gradient, -inf, inf, false, "",
-             "dB/dx along the axis, instead of B0 (1 - z/H)"),
+             "dB/dx along the axis, instead of B0 (1 - z/H); required for a quadrupole"),
       vector("magnetic", "zero_at", length, -inf, false, "0 um, 0 um, 0 um",
-             "where an explicit gradient's field vanishes"),
+             "where an explicit gradient's or a quadrupole's field vanishes"),
+      choice("magnetic", "plane", {"xy", "yz", "zx", "yx", "zy", "xz"}, {}, "yz",
+             "of a quadrupole, B = gradient (along the first axis, against the second), and of a "
+             "rotating field, which turns from the first axis to the second"),
+      amount("magnetic", "frequency", frequency, 0, inf, true, "",
+             "of a rotating field or time = \"sine\"; required then"),
+      choice(
+          "magnetic", "time", {"constant", "sine", "ramp", "pulse"}, {}, "constant",
+          "factor of the field: 1; sin(2 pi frequency t); from 0 at start to 1 after duration; 1 "
+          "from start on for duration, else 0"),
+      amount("magnetic", "start", time, 0, inf, false, "0 s", "of a ramp or pulse"),
+      amount("magnetic", "duration", time, 0, inf, true, "", "of a ramp or pulse; required then"),
       flag("magnetic", "dipoles", "true", "carrier-carrier interaction"),
       {"analysis",
        "layer",
@@ -281,6 +296,8 @@ std::string accepted(const Key& key) {
   switch (key.kind) {
   case Kind::text:
     return "a string";
+  case Kind::tables:
+    return std::string("[[") + key.table + "." + key.name + "]] entries";
   case Kind::flag:
     return "true or false";
   case Kind::choice:

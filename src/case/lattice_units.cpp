@@ -95,21 +95,6 @@ double susceptible_volume(const Carrier& carrier) {
          std::pow(carrier.radius, 3);
 }
 
-GradientField gradient_field(const Case& c) {
-  const auto& m = c.magnetic;
-  const auto axis = static_cast<std::size_t>(m.axis);
-  if (m.gradient) return {*m.gradient, m.zero_at[axis]};
-  return {m.B0 / c.channel.size[axis], c.channel.size[axis]};
-}
-
-double strongest_field(const Case& c) {
-  if (c.magnetic.field == FieldKind::none) return 0;
-  if (c.magnetic.field == FieldKind::uniform) return std::fabs(c.magnetic.B0);
-  const auto g = gradient_field(c);
-  const double length = c.channel.size[static_cast<std::size_t>(c.magnetic.axis)];
-  return std::fabs(g.slope) * std::max(std::fabs(g.zero), std::fabs(length - g.zero));
-}
-
 double stokes_friction(const Case& c, const Carrier& carrier) {
   return 6 * std::numbers::pi * c.fluid.viscosity * carrier.radius;
 }

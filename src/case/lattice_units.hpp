@@ -64,17 +64,6 @@ long steps_in(double interval, const LatticeUnits& units);
 /// chi V_c of a carrier bead [m3] (Eq. 22).
 double susceptible_volume(const Carrier& carrier);
 
-/// The gradient of |B| [T/m] and where the field vanishes [m] along its axis; the default is B0 (1
-/// - z/H).
-struct GradientField {
-  double slope = 0;
-  double zero = 0;
-};
-GradientField gradient_field(const Case& c);
-
-/// Largest |B| in the channel [T].
-double strongest_field(const Case& c);
-
 /// Hydrodynamic radius of a coupled point [m]; a carrier that is felt must be smaller.
 double point_radius(const Case& c);
 

@@ -5,6 +5,7 @@
 #include <cstdarg>
 #include <cstdio>
 
+#include "case/external_field.hpp"
 #include "case/lattice_units.hpp"
 #include "contact/lennard_jones.hpp"
 
@@ -203,18 +204,8 @@ private:
     const double dx3 = std::pow(units_.dx, 3);
     for (std::size_t b = 0; b < carriers_; ++b)
       append(" susceptibility %zu %.9g", cells_ + b + 1, susceptible_volume(c_.carriers[b]) / dx3);
-    const double unit = units_.magnetic_field();
-    const char axis = "xyz"[c_.magnetic.axis];
-    if (c_.magnetic.field == FieldKind::none) {
-      line(" none");
-    } else if (c_.magnetic.field == FieldKind::uniform) {
-      double B[3] = {0, 0, 0};
-      B[c_.magnetic.axis] = c_.magnetic.B0 / unit;
-      line(" uniform %.12g %.12g %.12g", B[0], B[1], B[2]);
-    } else {
-      const auto g = gradient_field(c_);
-      line(" gradient %c %.12g %.12g", axis, g.slope * units_.dx / unit, length(g.zero));
-    }
+    for (const std::string& word : field_words(c_)) t_ += " " + word;
+    t_ += "\n";
   }
 
   void walls() {

@@ -169,4 +169,33 @@ double Table::in_range(const char* name, const Key& key, double value) const {
   return value;
 }
 
+Table section(const Source& source, const char* name) {
+  const toml::node* node = source.root.get(name);
+  if (node && !node->is_table())
+    source.fail(*node, name,
+                std::string("is ") + type_name(*node) + "; a [" + name + "] table is expected");
+  return Table(source, node ? node->as_table() : nullptr, name, name);
+}
+
+std::vector<Table> entries(const Source& source, const toml::node* node, const char* schema,
+                           const char* path) {
+  std::vector<Table> tables;
+  if (!node) return tables;
+  const auto* list = node->as_array();
+  if (!list)
+    source.fail(*node, path,
+                std::string("is ") + type_name(*node) + "; [[" + path + "]] entries are expected");
+  for (std::size_t k = 0; k < list->size(); ++k) {
+    if (!list->get(k)->is_table())
+      source.fail(*list->get(k), path, std::string("[[") + path + "]] entries are expected");
+    tables.emplace_back(source, list->get(k)->as_table(), schema,
+                        entry_path(path, k, list->size()));
+  }
+  return tables;
+}
+
+std::string entry_path(const char* name, std::size_t k, std::size_t count) {
+  return count == 1 ? name : std::string(name) + "." + std::to_string(k);
+}
+
 }  // namespace hemomag::case_

@@ -3,6 +3,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <toml++/toml.h>
 
@@ -67,5 +68,12 @@ private:
   const toml::table* table_;
   std::string schema_, path_;
 };
+
+/// The table [name].
+Table section(const Source& source, const char* name);
+
+/// The entries of [[path]], which `node` holds, checked as the table `schema`; none without it.
+std::vector<Table> entries(const Source& source, const toml::node* node, const char* schema,
+                           const char* path);
 
 }  // namespace hemomag::case_

@@ -7,9 +7,11 @@
 #include "comm.h"
 #include "error.h"
 #include "memory.h"
+#include "update.h"
 #include "utils.h"
 
 #include "lammps/compat.hpp"
+#include "magnetic/field_words.hpp"
 #include "magnetic/moment.hpp"
 
 using namespace LAMMPS_NS;
@@ -23,21 +25,7 @@ FixHemoField::FixHemoField(LAMMPS* lmp, int narg, char** arg)
   global_freq = 1;
   extscalar = extvector = 0;  // totals: not to be divided by the number of atoms
   comm_forward = 3;
-  for (int at = 3; at < narg;) {
-    const std::string key = arg[at];
-    if (key == "susceptibility" && at + 2 < narg) {
-      const int type = utils::inumeric(FLERR, arg[at + 1], false, lmp);
-      if (type < 1 || type > atom->ntypes)
-        error->all(
-            FLERR,
-            std::string(
-                "fix hemo/field: susceptibility TYPE CHI_VC needs an atom type of the system"));
-      chi_volume_[static_cast<std::size_t>(type)] = utils::numeric(FLERR, arg[at + 2], false, lmp);
-      at += 3;
-    } else {
-      at = parse_field(narg, arg, at);
-    }
-  }
+  hemomag::lammps::or_fail(lmp, FLERR, [&] { parse({arg + 3, arg + narg}); });
   FixHemoField::grow_arrays(atom->nmax);
   atom->add_callback(Atom::GROW);
 }
@@ -47,30 +35,28 @@ FixHemoField::~FixHemoField() {
   memory->destroy(moment_);
 }
 
-int FixHemoField::parse_field(int narg, char** arg, int at) {
-  const std::string kind = arg[at++];
-  const auto number = [&] {
-    if (at >= narg) error->all(FLERR, "fix hemo/field: " + kind + " needs more values");
-    return utils::numeric(FLERR, arg[at++], false, lmp);
-  };
-  if (kind == "none") {
-    field_ = magnetic::NoField{};
-  } else if (kind == "uniform") {
-    const double x = number(), y = number(), z = number();
-    field_ = magnetic::UniformField{{x, y, z}};
-  } else if (kind == "gradient") {
-    const std::string axis = at < narg ? arg[at++] : "";
-    if (axis != "x" && axis != "y" && axis != "z")
-      error->all(FLERR,
-                 std::string("fix hemo/field: gradient AXIS SLOPE ZERO needs an axis x, y or z"));
-    const double slope = number(), zero = number();
-    field_ = magnetic::AxialGradient{axis[0] - 'x', slope, zero};
-  } else {
-    error->all(FLERR, "fix hemo/field: " + kind +
-                          " is unknown; accepted: susceptibility TYPE CHI_VC, none, "
-                          "uniform BX BY BZ, gradient AXIS SLOPE ZERO");
-  }
-  return at;
+void FixHemoField::parse(const std::vector<std::string>& words) {
+  for (std::size_t at = 0; at < words.size();)
+    if (words[at] == "susceptibility")
+      read_susceptibility(words, at);
+    else
+      try {
+        magnetic::read_source(words, at, field_);
+      } catch (const hemomag::Error& e) {
+        throw hemomag::Error(std::string("fix hemo/field: ") + e.what());
+      }
+}
+
+void FixHemoField::read_susceptibility(const std::vector<std::string>& words, std::size_t& at) {
+  if (at + 2 >= words.size())
+    throw hemomag::Error("fix hemo/field: susceptibility TYPE CHI_VC needs two values");
+  const int type = utils::inumeric(FLERR, words[at + 1].c_str(), false, lmp);
+  if (type < 1 || type > atom->ntypes)
+    throw hemomag::Error(
+        "fix hemo/field: susceptibility TYPE CHI_VC needs an atom type of the system");
+  chi_volume_[static_cast<std::size_t>(type)] =
+      utils::numeric(FLERR, words[at + 2].c_str(), false, lmp);
+  at += 3;
 }
 
 int FixHemoField::setmask() { return FixConst::PRE_FORCE | FixConst::POST_FORCE; }
@@ -79,32 +65,30 @@ void FixHemoField::setup_pre_force(int vflag) { pre_force(vflag); }
 
 void FixHemoField::setup(int vflag) { post_force(vflag); }
 
-/// Moments of owned carriers (Eq. 22). Ghosts get their owner's: a field need not be periodic.
+/// Moments of owned carriers (Eq. 22) and the force (m . grad) B on them (Eqs. 23, 41), at the time
+/// of the step that is being made. Ghosts get their owner's moment: a field need not be periodic.
 void FixHemoField::pre_force(int) {
+  field_.set_time(static_cast<double>(update->ntimestep));
   const auto* x = reinterpret_cast<const Vec3*>(atom->x[0]);
   auto* m = reinterpret_cast<Vec3*>(moment_[0]);
-  for (int i = 0; i < atom->nlocal; ++i)
-    m[i] = atom->mask[i] & groupbit
-               ? magnetic::linear_moment(chi_volume_[static_cast<std::size_t>(atom->type[i])],
-                                         magnetic::evaluate(field_, x[i]).B)
-               : Vec3{};
-  comm->forward_comm_fix(this);
-}
-
-/// (m . grad) B on owned carriers (Eqs. 23, 41).
-void FixHemoField::post_force(int) {
-  const auto* x = reinterpret_cast<const Vec3*>(atom->x[0]);
-  const auto* m = reinterpret_cast<const Vec3*>(moment_[0]);
-  auto* f = reinterpret_cast<Vec3*>(atom->f[0]);
+  force_.assign(static_cast<std::size_t>(atom->nlocal), Vec3{});
   std::fill_n(sums_, 4, 0.0);
   for (int i = 0; i < atom->nlocal; ++i) {
+    m[i] = Vec3{};
     if (!(atom->mask[i] & groupbit)) continue;
-    const auto at = magnetic::evaluate(field_, x[i]);
+    const auto at = field_(x[i]);
+    m[i] = magnetic::linear_moment(chi_volume_[static_cast<std::size_t>(atom->type[i])], at.B);
     const Vec3 F = magnetic::gradient_force(m[i], at);
-    f[i] += F;
+    force_[static_cast<std::size_t>(i)] = F;
     sums_[0] += magnetic::induced_energy(m[i], at.B);
     for (std::size_t d = 0; d < 3; ++d) sums_[d + 1] += F[d];
   }
+  comm->forward_comm_fix(this);
+}
+
+void FixHemoField::post_force(int) {
+  auto* f = reinterpret_cast<Vec3*>(atom->f[0]);
+  for (std::size_t i = 0; i < force_.size(); ++i) f[i] += force_[i];
 }
 
 double FixHemoField::compute_scalar() {

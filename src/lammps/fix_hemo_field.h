@@ -7,6 +7,7 @@ FixStyle(hemo/field,FixHemoField)
 #ifndef LMP_FIX_HEMO_FIELD_H
 #define LMP_FIX_HEMO_FIELD_H
 
+#include <string>
 #include <vector>
 
 #include "fix.h"
@@ -41,12 +42,14 @@ public:
   double** moments() { return moment_; }
 
 private:
-  int parse_field(int narg, char** arg, int at);
+  void parse(const std::vector<std::string>& words);
+  void read_susceptibility(const std::vector<std::string>& words, std::size_t& at);
 
   std::vector<double> chi_volume_;  // by type
-  hemomag::magnetic::Field field_ = hemomag::magnetic::NoField{};
+  hemomag::magnetic::Field field_;
   double** moment_ = nullptr;
-  double sums_[4] = {};  // energy, force, on this rank in the last step
+  std::vector<hemomag::Vec3> force_;  // of owned atoms, from pre_force to post_force
+  double sums_[4] = {};               // energy, force, on this rank in the last step
 };
 
 }  // namespace LAMMPS_NS

@@ -1,5 +1,5 @@
 #pragma once
-#include "magnetic/field.hpp"
+#include "magnetic/field_at.hpp"
 
 namespace hemomag::magnetic {
 

@@ -157,8 +157,6 @@ TEST_F(BadInput, Contradictions) {
 }
 
 TEST_F(BadInput, FeaturesOfLaterVersions) {
-  refused(changed("B0 = \"0.05 T\"", "field = \"rotating\""),
-          "case.toml:13:9: magnetic.field:", "not available");
   refused(changed("[run]", "[analysis]\nlayer = \"measured\"\n[run]"),
           "case.toml:15:9: analysis.layer:", "not available");
   refused(changed("[[carrier]]", "[[cell]]\nplacement = \"compress\"\n[[carrier]]"),

@@ -17,7 +17,7 @@ TEST(Worm, HoldsTogetherJustUnderTheCardsLimit) {
   c.carriers[0].kind = case_::CarrierKind::worm;
   c.carriers[0].beads = 8;
   c.carriers[0].count = 3;
-  c.magnetic.B0 = 0.05;
+  c.magnetic.sources[0].B0 = 0.05;
   c.run.steps = 1000;
   const auto refused = [&](double stretching) {
     c.carriers[0].stretching = stretching;

@@ -8,6 +8,7 @@
 #include "contact/wall.hpp"
 #include "lattice/vessel.hpp"
 #include "magnetic/dipole.hpp"
+#include "magnetic/field.hpp"
 #include "magnetic/moment.hpp"
 #include "support/gradient.hpp"
 
@@ -86,42 +87,6 @@ TEST(Repulsion, ForcesAreMinusTheEnergyGradient) {
   }
   EXPECT_LT(soft, gradient_tolerance);
   EXPECT_LT(paper, gradient_tolerance);
-}
-
-TEST(Field, GradientsEqualFiniteDifferences) {
-  const magnetic::Field fields[] = {magnetic::NoField{}, magnetic::UniformField{{1, 2, 3}},
-                                    magnetic::AxialGradient{0, 0.3, 4},
-                                    magnetic::AxialGradient{2, -0.7, 20}};
-  Random random(7);
-  for (const auto& field : fields)
-    for (int k = 0; k < 100; ++k) {
-      const Vec3 x = random.in_cube(10);
-      const auto at = magnetic::evaluate(field, x);
-      for (std::size_t d = 0; d < 3; ++d) {
-        Vec3 step;
-        step[d] = 1e-3;
-        const Vec3 slope =
-            (magnetic::evaluate(field, x + step).B - magnetic::evaluate(field, x - step).B) / 2e-3;
-        EXPECT_LT(norm(slope - at.gradient[d]), 1e-8);
-      }
-    }
-}
-
-TEST(Field, ForceIsMinusTheGradientOfTheInducedEnergy) {
-  const magnetic::AxialGradient field{2, 0.4, 10};
-  Random random(8);
-  for (int k = 0; k < 100; ++k) {
-    const std::vector<Vec3> x{random.in_cube(5)};
-    const auto at = field(x[0]);
-    const Vec3 F = magnetic::gradient_force(magnetic::linear_moment(0.1, at.B), at);
-    EXPECT_LT(test::gradient_error(x, std::vector<Vec3>{F}, 1,
-                                   [&](const auto& y) {
-                                     const auto B = field(y[0]).B;
-                                     return magnetic::induced_energy(
-                                         magnetic::linear_moment(0.1, B), B);
-                                   }),
-              gradient_tolerance);
-  }
 }
 
 TEST(Contact, ForcesAreMinusTheEnergyGradient) {

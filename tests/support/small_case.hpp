@@ -35,8 +35,8 @@ inline case_::Case small_case() {
   c.carriers.emplace_back();
   c.carriers[0].count = 12;
   c.carriers[0].radius = 125e-9;
-  c.magnetic.field = case_::FieldKind::gradient;
-  c.magnetic.B0 = 0.1;
+  c.magnetic.sources.emplace_back();  // of the gradient
+  c.magnetic.sources[0].B0 = 0.1;
   c.run.steps = 200;
   c.output.fields.reset();
   c.output.series.reset();

@@ -136,13 +136,13 @@ TEST(Card, JudgesTheFieldAgainstTheMethod) {
   c.carriers.emplace_back();
   c.carriers[0].radius = 125e-9;
   c.carriers[0].count = 80;
-  c.magnetic.field = FieldKind::gradient;
-  c.magnetic.B0 = 0.1;
+  c.magnetic.sources.emplace_back();  // of the gradient
+  c.magnetic.sources[0].B0 = 0.1;
   EXPECT_FALSE(make_card(c, {}).refused());
   EXPECT_EQ(line(make_card(c, {}), "contact sub-steps").value, "2");
-  c.magnetic.B0 = 0.2;
+  c.magnetic.sources[0].B0 = 0.2;
   EXPECT_EQ(line(make_card(c, {}), "contact sub-steps").value, "8");
-  c.magnetic.B0 = 1.0;
+  c.magnetic.sources[0].B0 = 1.0;
   const Card strong = make_card(c, {});
   EXPECT_TRUE(strong.refused());
   EXPECT_EQ(line(strong, "drift").verdict, Verdict::refused);
@@ -397,7 +397,7 @@ TEST(Examples, AreAcceptedAndNotRefused) {
   }
   const Case demo = read_case(HEMOMAG_SOURCE_DIR "/examples/margination_demo.toml",
                               {"magnetic.B0=0.03 T", "cell.vertices=642"});
-  EXPECT_DOUBLE_EQ(demo.magnetic.B0, 0.03);
+  EXPECT_DOUBLE_EQ(demo.magnetic.sources[0].B0, 0.03);
   EXPECT_EQ(cell_count(demo, demo.cells[0], cell_models(demo)[0]), 14);
   EXPECT_NE(demo.text.find("0.03 T"), std::string::npos) << "the case as run holds the overrides";
 }
