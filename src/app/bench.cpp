@@ -117,7 +117,8 @@ int bench(const std::vector<std::string>& names, bool json) {
     const char* name;
     void (*run)(bool json);
   };
-  constexpr Benchmark all[] = {{"fluid", bench_fluid}, {"membrane", bench_membrane}};
+  constexpr Benchmark all[] = {
+      {"fluid", bench_fluid}, {"membrane", bench_membrane}, {"dipole", bench_dipole}};
   for (const std::string& name : names)
     if (std::none_of(std::begin(all), std::end(all),
                      [&](const auto& b) { return name == b.name; })) {
@@ -126,7 +127,7 @@ int bench(const std::vector<std::string>& names, bool json) {
       if (rank == 0)
         std::fprintf(stderr,
                      "hemomag bench: %s is not available in this version; accepted: fluid, "
-                     "membrane\n",
+                     "membrane, dipole\n",
                      name.c_str());
       return 2;
     }

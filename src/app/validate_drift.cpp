@@ -268,8 +268,7 @@ void kernels_and_schemes(std::vector<Finding>& found) {
             sum += (j == k ? 1 : 2) * weight[i] * weight[j] * weight[k] * ratio;
             if (std::fabs(ratio - 1) > std::fabs(worst - 1)) worst = ratio;
           }
-      const std::string head =
-          format("%s tau %g, %s, a = R/2, ", scheme.name, scheme.tau, name, R / 2);
+      const std::string head = format("%s tau %g, %s, a = R/2, ", scheme.name, scheme.tau, name);
       found.push_back({"particle-drift", head + "mean over cell", sum, 1, mean_tolerance, "",
                        "Stokes, Hasimoto 1959"});
       found.push_back(

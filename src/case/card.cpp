@@ -283,8 +283,8 @@ private:
     const double cutoff = dipole_cutoff(c_) * units_.dx;
     add("dipole cut-off", text("%.4g um, neglects %.2g of the contact pull", cutoff * 1e6,
                                magnetic::neglected_pull(d, cutoff)));
-    const double substeps = std::max(
-        1.0, std::ceil(2 * contact_stiffness(carrier) * units_.dt / bare_friction(c_, carrier)));
+    const double substeps = magnetic::contact_substeps(contact_stiffness(carrier) * units_.dt /
+                                                       bare_friction(c_, carrier));
     add("contact sub-steps", text("%.0f", substeps),
         substeps <= LAMMPS_NS::FixHemoDrag::most_substeps ? Verdict::fine : Verdict::refused,
         text("at most %d: lower B0 or dt", LAMMPS_NS::FixHemoDrag::most_substeps));
@@ -308,7 +308,7 @@ private:
   /// above -1. Without contact forces the limit is 2.
   static double bond_limit(double c) {
     if (c < 1e-9) return 2;
-    const double n = std::max(1.0, std::ceil(c / 2));
+    const double n = magnetic::contact_substeps(c / 4);
     const double q = std::pow(1 - c / n, n);
     return c * (1 + q) / (1 - q);
   }

@@ -99,22 +99,21 @@ double FixHemoDrag::bare_friction(double a) const {
   return stokes / (1 - a / R);
 }
 
-/// n_sub = ceil(2 k dt/Gamma): the stiffest mode of a chain of contacts has 4 k/Gamma, an explicit
-/// step is stable below 2 of it, with inertia too. Chosen anew for every neighbour list, since
-/// moments grow as carriers approach a magnet.
+/// Chosen anew for every neighbour list, since moments grow as carriers approach a magnet. What is
+/// stable without inertia is so with it.
 void FixHemoDrag::choose_substeps() {
   if (!dipoles_ || chosen_at_ == neighbor->lastcall) return;
   chosen_at_ = neighbor->lastcall;
   double most_mobile = 0;
   for (const Kind& kind : kinds_) most_mobile = std::max(most_mobile, kind.mobility);
   const double stiffness = dipoles_->max_stiffness();
-  const double needed = std::ceil(2 * stiffness * most_mobile);
+  const double needed = hemomag::magnetic::contact_substeps(stiffness * most_mobile);
   if (!(needed <= most_substeps))
     error->all(FLERR, "fix hemo/drag: step " + std::to_string(update->ntimestep) +
                           ": the contact forces need " + std::to_string(needed) +
                           " sub-steps, more than " + std::to_string(most_substeps) +
                           " (field too strong, or dt too long)");
-  substeps_ = std::max(1, static_cast<int>(needed));
+  substeps_ = static_cast<int>(needed);
   if (substeps_ > most_reported_) {
     most_reported_ = substeps_;
     utils::logmesg(lmp, "fix hemo/drag: step " + std::to_string(update->ntimestep) + ": " +
@@ -135,6 +134,8 @@ void FixHemoDrag::stiff_forces() {
   dipoles_->accumulate(atom->x, stiff_);
   comm->reverse_comm_fix(this);
 }
+
+long FixHemoDrag::pairs() { return dipoles_->pairs(); }
 
 void FixHemoDrag::forward_positions() { comm->forward_comm_fix(this); }
 

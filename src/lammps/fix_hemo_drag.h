@@ -48,6 +48,8 @@ public:
   /// Dipole and contact forces of owned carriers at the present positions, as every sub-step needs
   /// them. Collective; needs a dipole style and a neighbour list.
   void stiff_forces();
+  /// Pairs within the dipoles' cut-off, over all ranks. Collective.
+  long pairs();
   /// Positions of ghost carriers, as between two sub-steps. Collective.
   void forward_positions();
 

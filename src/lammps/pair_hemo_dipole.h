@@ -36,6 +36,8 @@ public:
   /// Add the forces of every pair of the present list, at positions x, to f of owned and ghost
   /// atoms; the caller sums ghosts.
   void accumulate(double** x, double** f);
+  /// Pairs within the cut-off, over all ranks. Collective.
+  long pairs();
   /// Largest contact stiffness at the present moments, over all ranks. Collective.
   double max_stiffness();
 
@@ -55,7 +57,8 @@ private:
   const Pairing& between(int i, int j) const {
     return pairing_[static_cast<std::size_t>(i * (types_ + 1) + j)];
   }
-  hemomag::magnetic::PairForce force_between(int i, int j, const hemomag::Vec3& r) const;
+  hemomag::magnetic::PairForce repulsion_between(int i, int j, const hemomag::Vec3& r) const;
+  double longest_reach2() const;
   template <class Visit> void for_each_pair(double** x, Visit visit) const;
 
   int types_ = 0;
