@@ -62,9 +62,10 @@ inline PairForce paper_repulsion(double epsilon, double sigma, double d, const V
 /// spans the joint pulls, n of them at n times the distance, so that it is sum n/n^4 = zeta(3).
 inline constexpr double chain_load = 1.2020569031595942;
 
-/// Stiffness -dF/dr of the soft repulsion that carries the load of a long chain.
+/// Stiffness of a joint that the soft repulsion holds under the load of a long chain: kappa load/d,
+/// less the slope 4 pull/d of the dipoles, which pull the harder the nearer they are.
 inline double soft_stiffness(double pull, double kappa, double d) {
-  return chain_load * pull * kappa / d;
+  return (chain_load * kappa - 4) * pull / d;
 }
 
 /// The same of Eq. 26: F ~ epsilon sigma^12/s^13, so 13 F/s where F is the load.
