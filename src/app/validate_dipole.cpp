@@ -281,15 +281,18 @@ io::Diagram forces_of_distance() {
   for (double r = 0.96; r <= 1.6; r += 0.002) {
     const Vec3 along{0, 0, r * d}, across{r * d, 0, 0};
     const double f = magnetic::dipole_dipole(moment, moment, along).on_j.z;
-    const auto add = [&](io::Series& s, double F) { s.x.push_back(r), s.y.push_back(F / pull); };
+    const auto add = [&](io::Series& s, double F) {
+      constexpr double highest = 1.2;  // the repulsions go on far beyond the diagram
+      if (std::fabs(F) < highest * pull) s.x.push_back(r), s.y.push_back(F / pull);
+    };
     add(line, f);
     add(side, magnetic::dipole_dipole(moment, moment, across).on_j.x);
     add(k30, f + magnetic::soft_repulsion(pull, 30, d, along).on_j.z);
     add(k60, f + magnetic::soft_repulsion(pull, 60, d, along).on_j.z);
-    if (r > 1.004) add(paper, f + magnetic::paper_repulsion(epsilon, sigma, d, along).on_j.z);
+    if (r > 1.01) add(paper, f + magnetic::paper_repulsion(epsilon, sigma, d, along).on_j.z);
   }
   return {"force between two carriers",  "r/d",       "force over the contact pull (> 0: apart)",
-          {line, side, k30, k60, paper}, {0.95, 1.6}, {-1.2, 2.4}};
+          {line, side, k30, k60, paper}, {0.95, 1.6}, {-1.2, 3}};
 }
 
 std::vector<Finding> dipole_pair(const std::string& out) {

@@ -325,7 +325,7 @@ std::vector<Finding> relaxation_drag(const std::string& out) {
       const double now = run.v()[0].x / v0, expected = std::exp(-t / time);
       worst = std::max(worst, std::fabs(now / expected - 1));
       csv.row({0, time, static_cast<double>(t), now, expected});
-      ours.x.push_back(t / time), ours.y.push_back(now);
+      if (t <= 5 * time) ours.x.push_back(t / time), ours.y.push_back(now);
     }
     run.run(static_cast<long>(30 * time) + 5);
     diagram.series.push_back(ours);
