@@ -76,7 +76,7 @@ void sensitivity(std::vector<Finding>& found) {
   ChainRun::Options o;
   o.carriers = 5;
   const Critical range{0.85, 1.15};
-  for (const double box : {2.5, 4.0, 6.0}) {
+  for (const double box : {2.5, 3.5, 5.0}) {
     o.box = box;
     found.push_back(
         printed(name, format("N = 5, box of %g chain lengths: critical over the table's", box),
@@ -91,22 +91,23 @@ void sensitivity(std::vector<Finding>& found) {
   }
 }
 
+/// The middle of the chain's plane, one and a half chains wide.
 io::FlowPicture picture(ChainRun& chain, const std::string& label) {
-  const int side = chain.side();
+  const int side = chain.side(), cut = side / 5;
   io::FlowPicture p;
   p.label = label;
-  p.width = p.height = side;
+  p.width = p.height = side - 2 * cut;
   p.radius = chain.radius();
-  for (const Vec3& x : chain.x()) p.spheres.push_back({x.x, x.y});
+  for (const Vec3& x : chain.x()) p.spheres.push_back({x.x - cut, x.y - cut});
   p.axis = {std::cos(chain.field_angle()), std::sin(chain.field_angle())};
   const auto u = chain.flow_in_plane();
   constexpr int every = 2;
-  for (int j = 0; j < side; j += every)
-    for (int i = 0; i < side; i += every) {
+  for (int j = cut + 1; j < side - cut; j += every)
+    for (int i = cut + 1; i < side - cut; i += every) {
       const Vec3& here = u[static_cast<std::size_t>(j * side + i)];
-      p.flow.push_back({i + 0.5, j + 0.5, here.x, here.y});
+      p.flow.push_back({i - cut + 0.5, j - cut + 0.5, here.x, here.y});
     }
-  p.fastest = chain.tip_speed();
+  p.fastest = 0.7 * chain.tip_speed();
   p.arrow = 4;
   return p;
 }
@@ -185,7 +186,7 @@ void draw_breakup(const io::Series& ours, const std::string& out) {
   for (io::Series& s : compensated)
     for (std::size_t i = 0; i < s.x.size(); ++i) s.y[i] *= s.x[i] * s.x[i];
   const io::Diagram plain{
-      "critical frequency of chains", "N", "omega 6 pi eta a^2/F0", all, {0, 16}, {0, 0.06}};
+      "critical frequency of chains", "N", "omega 6 pi eta a^2/F0", all, {0, 16}, {0, 0.08}};
   const io::Diagram scaled{"the same times N^2", "N",     "N^2 omega 6 pi eta a^2/F0",
                            compensated,          {0, 16}, {0, 0.8}};
   io::replace_file(out + "/chain_breakup.svg", io::draw_diagrams({plain, scaled}));
