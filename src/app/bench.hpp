@@ -17,4 +17,7 @@ void bench_membrane(bool json);
 /// ms a step, at random places and in chains, a line each on rank 0. Collective.
 void bench_dipole(bool json);
 
+/// B and its gradient at one place, in ns by kind of source. Collective.
+void bench_field(bool json);
+
 }  // namespace hemomag::app

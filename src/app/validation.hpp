@@ -65,6 +65,8 @@ std::vector<Validation> cell_validations();
 std::vector<Validation> drift_validations();
 std::vector<Validation> dipole_validations();
 std::vector<Validation> chain_validations();
+/// Of magnetic fields (validate_field.cpp).
+std::vector<Validation> field_validations();
 
 /// Run the named ones (all if none) and print them, as a table or as one JSON object a line. Rank 0
 /// works alone.

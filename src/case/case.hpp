@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "base/vec3.hpp"
 #include "case/vessel.hpp"
+#include "lattice/field_table.hpp"
 #include "lattice/surface.hpp"
 
 // A case as the user means it, in SI units, checked key by key. What the keys mean:
@@ -23,7 +25,9 @@ enum class CellKind { rbc, platelet, white };
 enum class StressFree { rest_shape, sphere };
 enum class CarrierKind { particle, worm };
 enum class Repulsion { soft, paper };
-enum class FieldKind { uniform, gradient, quadrupole, rotating };
+enum class FieldKind { uniform, gradient, quadrupole, rotating, magnet, coil, wire, table };
+enum class MagnetShape { block, cylinder };
+enum class CoilPair { none, same, opposite };
 enum class TimeCourse { constant, sine, ramp, pulse };
 enum class LayerWalls { lower, both, vessel };
 
@@ -85,6 +89,7 @@ struct Carrier {
   double radius = 0;           ///< [m]
   double susceptibility = 0.4;
   double magnetic_fraction = 0.6;
+  double saturation_magnetisation = 0;  ///< [A/m] of the magnetic part; 0: linear
   std::optional<double> density;  ///< [kg/m3]; without it there is no inertia
   bool feedback = true;
 };
@@ -104,12 +109,26 @@ struct Contact {
 
 /// One of the fields that add up; which of its values count depends on the kind.
 struct MagneticSource {
+  std::string key = "magnetic";  ///< path of its table in the case file
   FieldKind field = FieldKind::gradient;
   double B0 = 0.05;                ///< [T]
-  int axis = 2;                    ///< of a gradient or uniform field
+  Vec3 axis{0, 0, 1};              ///< of length one
   std::string plane = "yz";        ///< two axes: of a quadrupole, and from which to which B rotates
   std::optional<double> gradient;  ///< [T/m]; else B0 (1 - z/H) with the pull down
-  std::array<double, 3> zero_at{};  ///< [m], where an explicit gradient's field vanishes
+  std::array<double, 3> zero_at{};   ///< [m], where an explicit gradient's field vanishes
+  std::array<double, 3> position{};  ///< [m], of a body, or of a table's origin
+  MagnetShape shape = MagnetShape::block;
+  std::array<double, 3> size{};  ///< [m], edges of a block
+  Vec3 across{1, 0, 0};          ///< of a block's first edge
+  double diameter = 0;           ///< [m], of a cylinder or coil
+  double length = 0;             ///< [m], of a cylinder
+  double remanence = 0;          ///< [T]
+  Vec3 magnetisation{0, 0, 1};   ///< direction, of a block
+  double current = 0;            ///< [A], of a coil times its turns, or of a wire
+  CoilPair pair = CoilPair::none;
+  double distance = 0;                               ///< [m], between the coils of a pair
+  std::string file;                                  ///< path of a table
+  std::shared_ptr<const lattice::FieldTable> table;  ///< what it holds
   TimeCourse time = TimeCourse::constant;
   double frequency = 0;  ///< [Hz], of a rotating field or a sine
   double start = 0;      ///< [s], of a ramp or pulse

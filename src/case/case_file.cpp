@@ -297,6 +297,10 @@ Carrier read_carrier(const Table& t, double fluid_density) {
   carrier.susceptibility = t.number("susceptibility");
   carrier.magnetic_fraction = t.number("magnetic_fraction");
   carrier.density = t.optional_quantity("density");
+  carrier.saturation_magnetisation = t.optional_quantity("saturation_magnetisation").value_or(0);
+  if (carrier.susceptibility <= 0)
+    t.refuse_if_given("saturation_magnetisation", "needs a susceptibility above 0; accepted: that, "
+                                                  "or leave it out");
   carrier.feedback = t.flag("feedback");
   if (carrier.density && carrier.feedback && *carrier.density < fluid_density)
     t.fail("density", "is below the fluid's, whose mass is already there; accepted: at least "
@@ -386,6 +390,7 @@ std::string effective_text(Source& source, const Case& c, const std::string& tex
       source.root["cell"][k].as_table()->insert_or_assign("mesh", copy);
       copies = true;
     }
+  copies = point_at_table_copies(source, c) || copies;
   if (!copies && source.overridden.empty()) return text;
   std::stringstream out;
   out << source.root << "\n";
@@ -429,7 +434,8 @@ Case read_case(const std::string& path, const std::vector<std::string>& override
   check_size(c, channel);
   read_numerics(c, numerics);
   read_vessel(c, channel, path);
-  for (const Table& t : entries(source, source.root.get("cell"), "cell", "cell")) c.cells.push_back(read_cell(t, path));
+  for (const Table& t : entries(source, source.root.get("cell"), "cell", "cell"))
+    c.cells.push_back(read_cell(t, path));
   for (const Table& t : entries(source, source.root.get("carrier"), "carrier", "carrier")) {
     c.carriers.push_back(read_carrier(t, c.fluid.density));
     if (c.carriers.back().feedback != c.carriers.front().feedback)

@@ -36,6 +36,9 @@ Key vector(const char* t, const char* n, const Dimension& d, double min, bool ab
            const char* fallback, const char* help) {
   return {t, n, Kind::vector, &d, min, inf, above, fallback, {}, {}, help};
 }
+Key direction(const char* t, const char* n, const char* fallback, const char* help) {
+  return {t, n, Kind::direction, nullptr, 0, 0, false, fallback, {}, {}, help};
+}
 Key tables(const char* t, const char* n, const char* help) {
   return {t, n, Kind::tables, nullptr, 0, 0, false, "", {}, {}, help};
 }
@@ -135,6 +138,9 @@ const std::vector<Key>& table() {
              "chi, volume susceptibility relative to plasma"),
       number("carrier", "magnetic_fraction", 0, 1, false, "0.6",
              "part of the volume that is magnetic"),
+      amount(
+          "carrier", "saturation_magnetisation", magnetisation, 0, inf, true, "",
+          "of the magnetic part, where Langevin's law ends; without it the moment is linear in B"),
       amount("carrier", "density", density, 0, inf, true, "",
              "gives it inertia, see Carriers; without it carriers have none"),
       flag("carrier", "feedback", "true", "false: one-way, the fluid does not feel the carrier"),
@@ -156,13 +162,17 @@ const std::vector<Key>& table() {
              "carrier-carrier: exponential, or Eq. 26"),
       number("contact", "repulsion_kappa", 4, inf, true, "30",
              "steepness of the exponential: it falls to 1/e over 1/kappa of the contact distance"),
-      choice("magnetic", "field", {"none", "uniform", "gradient", "quadrupole", "rotating"},
-             {"magnet", "coil", "wire", "table"}, "gradient",
+      choice("magnetic", "field",
+             {"none", "uniform", "gradient", "quadrupole", "rotating", "magnet", "coil", "wire",
+              "table"},
+             {}, "gradient",
              "external field (none without a [magnetic] table): see Magnetic fields"),
       tables("magnetic", "source", "fields that add up, each with the keys of [magnetic]"),
       amount("magnetic", "B0", field, 0, inf, false, "0.05 T",
              "strength of a uniform, gradient or rotating field"),
-      choice("magnetic", "axis", {"x", "y", "z"}, {}, "z", "of a uniform field or a gradient"),
+      direction("magnetic", "axis", "z",
+                "of a uniform field, a gradient (a word then), a magnet (third edge of a block), a "
+                "coil (its turns) or a wire (its current)"),
       amount("magnetic", "gradient", field_gradient, -inf, inf, false, "",
              "dB/dx along the axis, instead of B0 (1 - z/H); required for a quadrupole"),
       vector("magnetic", "zero_at", length, -inf, false, "0 um, 0 um, 0 um",
@@ -170,6 +180,31 @@ const std::vector<Key>& table() {
       choice("magnetic", "plane", {"xy", "yz", "zx", "yx", "zy", "xz"}, {}, "yz",
              "of a quadrupole, B = gradient (along the first axis, against the second), and of a "
              "rotating field, which turns from the first axis to the second"),
+      vector("magnetic", "position", length, -inf, false, "",
+             "centre of a magnet or coil, a point of a wire; required then; of a table, where its "
+             "own origin lies (0 by default)"),
+      choice("magnetic", "shape", {"block", "cylinder"}, {}, "block", "of a magnet"),
+      vector("magnetic", "size", length, 0, true, "",
+             "three edges of a block, the third along axis; required then"),
+      direction("magnetic", "across", "",
+                "of a block's first edge, made perpendicular to axis; by default the coordinate "
+                "axis that is farthest from axis"),
+      amount("magnetic", "diameter", length, 0, inf, true, "",
+             "of a cylinder or coil; required then"),
+      amount("magnetic", "length", length, 0, inf, true, "", "of a cylinder; required then"),
+      amount("magnetic", "remanence", field, 0, inf, true, "",
+             "of a magnet, mu* times its magnetisation; required then"),
+      direction("magnetic", "magnetisation", "",
+                "of a block, axis by default; a cylinder is magnetised along its axis"),
+      amount("magnetic", "current", current, -inf, inf, false, "",
+             "of a coil or wire; required then"),
+      integer("magnetic", "turns", 1, 1e6, "1", "of a coil, all in one place"),
+      choice("magnetic", "pair", {"none", "same", "opposite"}, {}, "none",
+             "of coils about position: a second coil with the same or the opposite current"),
+      amount("magnetic", "distance", length, 0, inf, true, "",
+             "between the coils of a pair; required then"),
+      text("magnetic", "file", "",
+           "table of B on a grid, relative to the case file (docs/field_table.md); required then"),
       amount("magnetic", "frequency", frequency, 0, inf, true, "",
              "of a rotating field or time = \"sine\"; required then"),
       choice(
@@ -296,6 +331,8 @@ std::string accepted(const Key& key) {
   switch (key.kind) {
   case Kind::text:
     return "a string";
+  case Kind::direction:
+    return "\"x\", \"y\", \"z\" or three numbers, e.g. [0, 1, -1]";
   case Kind::tables:
     return std::string("[[") + key.table + "." + key.name + "]] entries";
   case Kind::flag:

@@ -11,7 +11,7 @@
 
 namespace hemomag::case_ {
 
-enum class Kind { text, integer, number, flag, choice, quantity, vector, tables };
+enum class Kind { text, integer, number, flag, choice, quantity, vector, direction, tables };
 
 struct Key {
   const char* table;  ///< "" for the top level

@@ -90,9 +90,12 @@ long steps(const Case& c) {
   return c.run.steps ? *c.run.steps : steps_in(*c.run.time, lattice_units(c));
 }
 
+double magnetic_volume(const Carrier& carrier) {
+  return carrier.magnetic_fraction * 4.0 / 3 * std::numbers::pi * std::pow(carrier.radius, 3);
+}
+
 double susceptible_volume(const Carrier& carrier) {
-  return carrier.susceptibility * carrier.magnetic_fraction * 4.0 / 3 * std::numbers::pi *
-         std::pow(carrier.radius, 3);
+  return carrier.susceptibility * magnetic_volume(carrier);
 }
 
 double stokes_friction(const Case& c, const Carrier& carrier) {

@@ -61,7 +61,8 @@ std::array<double, 2> plate_velocity(const Case& c);
 long steps(const Case& c);
 long steps_in(double interval, const LatticeUnits& units);
 
-/// chi V_c of a carrier bead [m3] (Eq. 22).
+/// V_c of a carrier bead [m3], and chi V_c (Eq. 22).
+double magnetic_volume(const Carrier& carrier);
 double susceptible_volume(const Carrier& carrier);
 
 /// Hydrodynamic radius of a coupled point [m]; a carrier that is felt must be smaller.

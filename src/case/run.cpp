@@ -13,6 +13,7 @@
 #include "case/break_off.hpp"
 #include "case/card.hpp"
 #include "case/cells_data.hpp"
+#include "case/external_field.hpp"
 #include "case/lattice_units.hpp"
 #include "case/script.hpp"
 #include "io/files.hpp"
@@ -68,6 +69,8 @@ int prepare(const Case& c, const RunOptions& options, Files& files) {
   for (std::size_t k = 0; k < c.cells.size(); ++k)
     if (const std::string copy = mesh_copy(c, k); !copy.empty())
       files[copy] = whole_file(c.cells[k].mesh);
+  for (const MagneticSource& s : c.magnetic.sources)
+    if (s.table) files[table_copy(s)] = whole_file(s.file);
   return done;
 }
 

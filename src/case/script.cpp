@@ -201,9 +201,11 @@ private:
 
   void field() {
     t_ += "fix field carriers hemo/field";
-    const double dx3 = std::pow(units_.dx, 3);
-    for (std::size_t b = 0; b < carriers_; ++b)
-      append(" susceptibility %zu %.9g", cells_ + b + 1, susceptible_volume(c_.carriers[b]) / dx3);
+    for (std::size_t b = 0; b < carriers_; ++b) {
+      const auto law = magnetisation(c_, c_.carriers[b]);
+      append(" susceptibility %zu %.9g", cells_ + b + 1, law.chi_volume);
+      if (law.saturation > 0) append(" saturation %zu %.9g", cells_ + b + 1, law.saturation);
+    }
     for (const std::string& word : field_words(c_)) t_ += " " + word;
     t_ += "\n";
   }

@@ -97,6 +97,26 @@ std::array<double, 3> Table::vector(const char* name) const {
   return v;
 }
 
+std::optional<Vec3> Table::direction(const char* name) const {
+  const Key& key = *find_key(schema_, name);
+  Vec3 v;
+  const std::string word = has(name) ? node(name).value_or(std::string()) : key.fallback;
+  if (!has(name) && word.empty()) return std::nullopt;
+  if (word == "x" || word == "y" || word == "z") {
+    v[static_cast<std::size_t>(word[0] - 'x')] = 1;
+    return v;
+  }
+  const auto* list = node(name).as_array();
+  if (!list || list->size() != 3) wrong_type(name, key);
+  for (std::size_t d = 0; d < 3; ++d) {
+    if (!list->get(d)->is_number()) wrong_type(name, key);
+    v[d] = *list->get(d)->value<double>();
+  }
+  if (!(norm(v) > 0) || !std::isfinite(norm(v)))
+    fail(name, "has no direction; accepted: " + accepted(key));
+  return v / norm(v);
+}
+
 bool Table::is_word(const char* name, const char* word) const {
   return has(name) && node(name).value<std::string>() == std::optional<std::string>(word);
 }

@@ -7,6 +7,7 @@
 
 #include <toml++/toml.h>
 
+#include "base/vec3.hpp"
 #include "case/keys.hpp"
 
 namespace hemomag::case_ {
@@ -44,6 +45,8 @@ public:
   double quantity(const char* name) const;
   std::optional<double> optional_quantity(const char* name) const;
   std::array<double, 3> vector(const char* name) const;
+  /// A vector of length one; empty without the key and a default.
+  std::optional<Vec3> direction(const char* name) const;
 
   /// True when the key holds this one of its words, e.g. "never".
   bool is_word(const char* name, const char* word) const;

@@ -25,6 +25,8 @@ inline constexpr Dimension pressure{"a pressure", "N/m2", "249 N/m2"};
 inline constexpr Dimension energy{"an energy", "J", "5e-19 J"};
 inline constexpr Dimension field{"a magnetic field", "T", "0.05 T"};
 inline constexpr Dimension field_gradient{"a field gradient", "T/m", "4000 T/m"};
+inline constexpr Dimension current{"a current", "A", "2 A"};
+inline constexpr Dimension magnetisation{"a magnetisation", "A/m", "446 kA/m"};
 inline constexpr Dimension frequency{"a frequency", "Hz", "10 Hz"};
 inline constexpr Dimension force_density{"a force density", "N/m3", "2e4 N/m3"};
 inline constexpr Dimension per_length{"an inverse length", "m-1", "3.84 um-1"};

@@ -70,9 +70,13 @@ InputFile::InputFile(const std::string& path) : path_(path), bytes_(read_file(pa
 
 void InputFile::fail(const std::string& what) const {
   if (content_ == Content::Binary) throw Error(path_ + ": " + what);
-  const auto end = bytes_.begin() + static_cast<std::ptrdiff_t>(at_);
-  const auto line = std::count(bytes_.begin(), end, '\n') + (at_ > 0 && end[-1] == '\n' ? 0 : 1);
-  throw Error(path_ + ": line " + std::to_string(line) + ": " + what);
+  throw Error(path_ + ": line " + std::to_string(line_number(left())) + ": " + what);
+}
+
+std::size_t InputFile::line_number(std::size_t left) const {
+  const auto end = bytes_.end() - static_cast<std::ptrdiff_t>(left);
+  const auto ends = static_cast<std::size_t>(std::count(bytes_.begin(), end, '\n'));
+  return ends + (end != bytes_.begin() && end[-1] == '\n' ? 0 : 1);
 }
 
 std::string_view InputFile::rest_of_line() {
@@ -82,12 +86,17 @@ std::string_view InputFile::rest_of_line() {
   return line;
 }
 
-std::string_view InputFile::line(char comment, const char* what) {
+std::optional<std::string_view> InputFile::next_line(char comment) {
   while (left() > 0) {
     auto line = rest_of_line();
     line = line.substr(0, line.find(comment));
     if (!std::all_of(line.begin(), line.end(), blank)) return line;
   }
+  return std::nullopt;
+}
+
+std::string_view InputFile::line(char comment, const char* what) {
+  if (const auto line = next_line(comment)) return *line;
   fail(std::string("the file ends before ") + what);
 }
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <bit>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -37,6 +38,10 @@ public:
 
   /// The rest of the line, without its end; empty at the end of the file.
   std::string_view rest_of_line();
+  /// The number of the line that was taken last when `left` bytes were left.
+  std::size_t line_number(std::size_t left) const;
+  /// The next line that is not blank once everything from `comment` on is removed, or nothing.
+  std::optional<std::string_view> next_line(char comment);
   /// The first line from here that is not blank once everything from `comment` on is removed.
   std::string_view line(char comment, const char* what);
   /// The next word, over any number of line ends.

@@ -13,6 +13,7 @@ FixStyle(hemo/field,FixHemoField)
 #include "fix.h"
 
 #include "magnetic/field.hpp"
+#include "magnetic/moment.hpp"
 
 namespace LAMMPS_NS {
 
@@ -22,6 +23,7 @@ public:
   FixHemoField(LAMMPS*, int, char**);
   ~FixHemoField() override;
   int setmask() override;
+  void init() override;
   void setup_pre_force(int) override;
   void setup(int) override;
   void pre_force(int) override;
@@ -43,9 +45,9 @@ public:
 
 private:
   void parse(const std::vector<std::string>& words);
-  void read_susceptibility(const std::vector<std::string>& words, std::size_t& at);
+  hemomag::magnetic::Magnetisation& of_type(const std::string& word);
 
-  std::vector<double> chi_volume_;  // by type
+  std::vector<hemomag::magnetic::Magnetisation> magnetisation_;  // by type
   hemomag::magnetic::Field field_;
   double** moment_ = nullptr;
   std::vector<hemomag::Vec3> force_;  // of owned atoms, from pre_force to post_force

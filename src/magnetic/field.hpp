@@ -2,7 +2,10 @@
 #include <variant>
 #include <vector>
 
+#include "magnetic/block_magnet.hpp"
 #include "magnetic/plain_fields.hpp"
+#include "magnetic/round_sources.hpp"
+#include "magnetic/table_field.hpp"
 #include "magnetic/time_factor.hpp"
 
 // External magnetic fields and their exact gradients, in units where the vacuum permeability mu* is
@@ -11,7 +14,8 @@
 namespace hemomag::magnetic {
 
 /// A steady field: what a source makes when its time factor is one.
-using Shape = std::variant<UniformField, AxialGradient, Quadrupole>;
+using Shape = std::variant<UniformField, AxialGradient, Quadrupole, BlockMagnet, CylinderMagnet,
+                           CurrentLoop, StraightWire, TableField>;
 
 struct Source {
   Shape shape;

@@ -8,10 +8,12 @@
 namespace hemomag::magnetic {
 namespace {
 
-constexpr const char* sources = "none, uniform BX BY BZ, gradient AXIS SLOPE ZERO, "
-                                "quadrupole PLANE SLOPE X Y Z, rotating PLANE B0 FREQUENCY, each "
-                                "followed by sine FREQUENCY, ramp START LENGTH or pulse START "
-                                "LENGTH";
+constexpr const char* sources =
+    "none, uniform BX BY BZ, gradient AXIS SLOPE ZERO, "
+    "quadrupole PLANE SLOPE X Y Z, rotating PLANE B0 FREQUENCY, block, cylinder, coil, coil_pair, "
+    "wire, table (docs/styles/fix_hemo_field.md), each "
+    "followed by sine FREQUENCY, ramp START LENGTH or pulse START "
+    "LENGTH";
 
 /// The words of one source, taken one after the other.
 class Words {
@@ -48,6 +50,18 @@ public:
     return v;
   }
 
+  Vec3 direction(const char* x, const char* y, const char* z) {
+    const Vec3 v = vector(x, y, z);
+    if (!(norm(v) > 0)) throw Error(name_ + ": a direction of length zero; accepted: another");
+    return v;
+  }
+
+  /// Centre and axis of a body of revolution.
+  Frame frame() {
+    const Vec3 centre = vector("X", "Y", "Z");
+    return Frame::along(centre, direction("AX", "AY", "AZ"));
+  }
+
   int axis() {
     const std::string& text = word("AXIS");
     if (text != "x" && text != "y" && text != "z")
@@ -70,7 +84,29 @@ private:
   std::string name_;
 };
 
-std::vector<Source> read_shape(Words& words) {
+std::vector<Source> block(Words& words) {
+  const Vec3 J = words.vector("JX", "JY", "JZ");
+  Vec3 edges;
+  edges.x = words.positive("LX"), edges.y = words.positive("LY"), edges.z = words.positive("LZ");
+  const Vec3 centre = words.vector("X", "Y", "Z"), axis = words.direction("AX", "AY", "AZ");
+  const Vec3 across = words.direction("CX", "CY", "CZ");
+  if (norm(cross(axis, across)) < 1e-6 * norm(axis) * norm(across))
+    throw Error("block: (CX, CY, CZ) is along (AX, AY, AZ); accepted: another direction");
+  const Frame frame = Frame::along(centre, axis, across);
+  return {{BlockMagnet{frame, 0.5 * edges, frame.components(J)}, {}}};
+}
+
+/// Two loops on one axis, each half of DISTANCE from (X, Y, Z); the second is ahead.
+std::vector<Source> coil_pair(Words& words) {
+  const double first = words.number("CURRENT1"), second = words.number("CURRENT2");
+  const double radius = words.positive("DIAMETER") / 2, half = words.positive("DISTANCE") / 2;
+  Frame behind = words.frame(), ahead = behind;
+  behind.origin = ahead.place({0, 0, -half});
+  ahead.origin = ahead.place({0, 0, half});
+  return {{CurrentLoop{behind, radius, first}, {}}, {CurrentLoop{ahead, radius, second}, {}}};
+}
+
+std::vector<Source> read_shape(Words& words, const TableReader& read_table) {
   const std::string& kind = words.name();
   if (kind == "none") return {};
   if (kind == "uniform") return {{UniformField{words.vector("BX", "BY", "BZ")}, {}}};
@@ -88,6 +124,27 @@ std::vector<Source> read_shape(Words& words) {
     const auto [u, v] = words.plane();
     const double B0 = words.number("B0");
     return rotating(u, v, B0, words.number("FREQUENCY"));
+  }
+  if (kind == "block") return block(words);
+  if (kind == "cylinder") {
+    const double J = words.number("J"), diameter = words.positive("DIAMETER"),
+                 length = words.positive("LENGTH");
+    return {{CylinderMagnet{words.frame(), diameter / 2, length / 2, J}, {}}};
+  }
+  if (kind == "coil") {
+    const double current = words.number("CURRENT"), diameter = words.positive("DIAMETER");
+    return {{CurrentLoop{words.frame(), diameter / 2, current}, {}}};
+  }
+  if (kind == "coil_pair") return coil_pair(words);
+  if (kind == "wire") {
+    const double current = words.number("CURRENT");
+    return {{StraightWire{words.frame(), current}, {}}};
+  }
+  if (kind == "table") {
+    const std::string file = words.word("FILE");
+    const double per_metre = words.positive("PER_METRE"), per_tesla = words.positive("PER_TESLA");
+    const Vec3 origin = words.vector("X", "Y", "Z");
+    return {{TableField(*read_table(file), origin, per_metre, per_tesla), {}}};
   }
   throw Error("'" + kind + "' is unknown; accepted: " + sources);
 }
@@ -124,9 +181,10 @@ void read_factors(Words& words, std::vector<Source>& shapes) {
 
 }  // namespace
 
-void read_source(std::span<const std::string> text, std::size_t& at, Field& field) {
+void read_source(std::span<const std::string> text, std::size_t& at, Field& field,
+                 const TableReader& read_table) {
   Words words(text, at);
-  std::vector<Source> shapes = read_shape(words);
+  std::vector<Source> shapes = read_shape(words, read_table);
   read_factors(words, shapes);
   for (const Source& source : shapes) field.add(source);
 }

@@ -69,8 +69,9 @@ protected:
     return {WEXITSTATUS(status), error};
   }
 
-  void refused(const std::string& text, const std::string& place, const std::string& says,
-               const std::string& options = "") {
+  /// @return the message
+  std::string refused(const std::string& text, const std::string& place, const std::string& says,
+                      const std::string& options = "") {
     const Outcome outcome = run(text, options);
     EXPECT_EQ(outcome.code, 2) << outcome.error;
     EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
@@ -83,6 +84,7 @@ protected:
                            outcome.error.find("required") != std::string::npos;
     EXPECT_TRUE(says_what) << outcome.error;
     EXPECT_FALSE(std::filesystem::exists(directory_ / "result"));
+    return outcome.error;
   }
 
   std::filesystem::path directory_;
@@ -372,6 +374,160 @@ TEST_F(BadInput, Overrides) {
   refused(good, "--set carrier.radus:", "is not a key", "--set 'carrier.radus=3 nm'");
   refused(good, "--set nonsense:", "has no value", "--set nonsense");
   refused(good, "--set carrier.7.radius:", "entries", "--set 'carrier.7.radius=3 nm'");
+}
+
+/// `good` with other lines in place of its field, the first of which is on line 13.
+std::string field_with(const std::string& lines) {
+  std::string text = good;
+  return text.replace(text.find("B0 = \"0.05 T\""), std::string("B0 = \"0.05 T\"").size(), lines);
+}
+
+const std::string block = "field = \"magnet\"\nposition = [\"4 um\", \"4 um\", \"-1 mm\"]\n"
+                          "remanence = \"0.2 T\"\nsize = [\"1 mm\", \"1 mm\", \"1 mm\"]\n";
+const std::string rod = "field = \"magnet\"\nposition = [\"4 um\", \"4 um\", \"-1 mm\"]\n"
+                        "remanence = \"0.2 T\"\nshape = \"cylinder\"\ndiameter = \"1 mm\"\n"
+                        "length = \"1 mm\"\n";
+const std::string coil = "field = \"coil\"\nposition = [\"4 um\", \"4 um\", \"-1 mm\"]\n"
+                         "current = \"1 A\"\ndiameter = \"1 mm\"\n";
+
+TEST_F(BadInput, GoodFields) {
+  for (const std::string& lines :
+       {block, rod, coil, coil + "pair = \"opposite\"\ndistance = \"1 mm\"\nturns = 3\n",
+        block + "axis = [0, 1, 1]\nacross = \"x\"\nmagnetisation = \"y\"\ntime = \"sine\"\n"
+                "frequency = \"100 Hz\"\n",
+        std::string("field = \"wire\"\nposition = [\"4 um\", \"4 um\", \"-1 mm\"]\naxis = \"x\"\n"
+                    "current = \"-1 A\"\ntime = \"pulse\"\nduration = \"1 ms\"\n"),
+        std::string(
+            "field = \"rotating\"\nfrequency = \"50 Hz\"\ntime = \"ramp\"\nduration = \"1 ms\"\n"),
+        "dipoles = false\n[[magnetic.source]]\nfield = \"uniform\"\naxis = [1, 0, 1]\n"
+        "[[magnetic.source]]\n" +
+            rod}) {
+    const Outcome outcome = run(field_with(lines), "--force --set run.steps=2");
+    EXPECT_EQ(outcome.code, 0) << lines << outcome.error;
+  }
+}
+
+TEST_F(BadInput, KeysOfFields) {
+  const auto line = [](int n) { return "case.toml:" + std::to_string(n) + ":"; };
+  const auto wrong = [&](const std::string& lines, int n, const std::string& key,
+                         const std::string& says) {
+    SCOPED_TRACE(lines);
+    const std::string error = refused(field_with(lines), line(n), says);
+    EXPECT_NE(error.find(" magnetic." + key + ":"), std::string::npos);
+  };
+  wrong("field = \"magnte\"\n", 13, "field", "is unknown");
+  wrong("field = \"rotating\"\n", 12, "frequency", "is missing");
+  wrong("field = \"rotating\"\nfrequency = \"10\"\n", 14, "frequency", "has no unit");
+  wrong("field = \"rotating\"\nfrequency = \"10 rpm\"\n", 14, "frequency", "is not a unit");
+  wrong("field = \"rotating\"\nfrequency = \"0 Hz\"\n", 14, "frequency", "out of range");
+  wrong("field = \"rotating\"\nfrequency = \"9 Hz\"\nplane = \"xx\"\n", 15, "plane", "is unknown");
+  wrong("field = \"rotating\"\nfrequency = \"9 Hz\"\ntime = \"sine\"\n", 15, "time",
+        "excludes a rotating");
+  wrong("frequency = \"9 Hz\"\n", 13, "frequency", "needs field = \"rotating\"");
+  wrong("time = \"sine\"\n", 12, "frequency", "is missing");
+  wrong("time = \"ramp\"\n", 12, "duration", "is missing");
+  wrong("time = \"pulse\"\nduration = \"0 s\"\n", 14, "duration", "out of range");
+  wrong("time = \"pulse\"\nduration = \"1 s\"\nstart = \"-1 s\"\n", 15, "start", "out of range");
+  wrong("start = \"1 s\"\n", 13, "start", "needs time");
+  wrong("time = \"square\"\n", 13, "time", "is unknown");
+  wrong("field = \"none\"\ntime = \"ramp\"\n", 14, "time", "needs a field");
+  wrong("field = \"quadrupole\"\n", 12, "gradient", "is missing");
+  wrong("field = \"quadrupole\"\ngradient = \"5 T\"\n", 14, "gradient", "is not a field gradient");
+  wrong("field = \"quadrupole\"\ngradient = \"5 T/m\"\nB0 = \"1 T\"\n", 15, "B0",
+        "needs field = \"uniform\"");
+  wrong("field = \"gradient\"\naxis = [0, 1, 1]\n", 14, "axis", "along one axis");
+  wrong("field = \"uniform\"\naxis = [0, 0, 0]\n", 14, "axis", "has no direction");
+  wrong("field = \"uniform\"\naxis = \"w\"\n", 14, "axis", "three numbers");
+  wrong("field = \"uniform\"\naxis = [0, \"1\", 0]\n", 14, "axis", "three numbers");
+  wrong("field = \"uniform\"\nremanence = \"1 T\"\n", 14, "remanence", "needs field = \"magnet\"");
+}
+
+TEST_F(BadInput, KeysOfMagnetsCoilsAndWires) {
+  const auto cut = [](std::string text, const std::string& key) {
+    const auto at = text.find(key + " = ");
+    return text.erase(at, text.find('\n', at) + 1 - at);
+  };
+  const auto wrong = [&](const std::string& lines, const std::string& key,
+                         const std::string& says) {
+    SCOPED_TRACE(lines);
+    const std::string error = refused(field_with(lines), "case.toml:", says);
+    EXPECT_NE(error.find(" magnetic." + key + ":"), std::string::npos);
+  };
+  for (const char* key : {"position", "remanence", "size"})
+    wrong(cut(block, key), key, "is missing");
+  for (const char* key : {"diameter", "length"}) wrong(cut(rod, key), key, "is missing");
+  for (const char* key : {"position", "current", "diameter"})
+    wrong(cut(coil, key), key, "is missing");
+  wrong(cut(block, "remanence") + "remanence = \"0.2 A\"\n", "remanence",
+        "is not a magnetic field");
+  wrong(cut(block, "remanence") + "remanence = \"0 T\"\n", "remanence", "out of range");
+  wrong(cut(block, "size") + "size = [\"1 mm\", \"0 mm\", \"1 mm\"]\n", "size", "out of range");
+  wrong(cut(block, "size") + "size = \"1 mm\"\n", "size", "three of a length");
+  wrong(cut(block, "position") + "position = [\"1 mm\", \"0 mm\", 1]\n", "position",
+        "without a unit");
+  wrong(block + "diameter = \"1 mm\"\n", "diameter", "cylinder");
+  wrong(block + "across = \"z\"\n", "across", "is along axis");
+  wrong(block + "turns = 2\n", "turns", "needs field = \"coil\"");
+  wrong(rod + "magnetisation = \"x\"\n", "magnetisation", "no closed form");
+  wrong(rod + "size = [\"1 mm\", \"1 mm\", \"1 mm\"]\n", "size", "block");
+  wrong(block + "shape = \"ball\"\n", "shape", "is unknown");
+  wrong(cut(coil, "current") + "current = \"1 T\"\n", "current", "is not a current");
+  wrong(coil + "turns = 0\n", "turns", "out of range");
+  wrong(coil + "pair = \"same\"\n", "distance", "is missing");
+  wrong(coil + "distance = \"1 mm\"\n", "distance", "needs pair");
+  wrong(coil + "pair = \"two\"\n", "pair", "is unknown");
+  wrong("dipoles = true\nB0 = \"1 T\"\n[[magnetic.source]]\nfield = \"uniform\"\n", "B0",
+        "excludes");
+  wrong("[[magnetic.source]]\ndipoles = false\n", "source.dipoles", "belongs to [magnetic]");
+  wrong("[[magnetic.source]]\n" + coil + "[[magnetic.source]]\n" + cut(coil, "diameter"),
+        "source.1.diameter", "is missing");
+  wrong("source = 3\n", "source", "entries are expected");
+  refused(changed("radius = ", "saturation_magnetisation = \"4 T\"\nradius = "),
+          "case.toml:11:28: carrier.saturation_magnetisation:", "is not a magnetisation");
+  refused(changed("radius = ", "saturation_magnetisation = \"0 A/m\"\nradius = "),
+          "case.toml:11:28: carrier.saturation_magnetisation:", "out of range");
+  refused(changed("radius = ",
+                  "susceptibility = 0.0\nsaturation_magnetisation = \"9 kA/m\"\nradius = "),
+          "case.toml:12:28: carrier.saturation_magnetisation:", "above 0");
+}
+
+TEST_F(BadInput, SourcesThatReachIntoTheChannel) {
+  const auto moved = [](std::string text, const std::string& z) {
+    return field_with(text.replace(text.find("-1 mm"), 5, z));
+  };
+  refused(moved(block, "0.4 mm"), "case.toml:12:1: magnetic:", "outside the box");
+  refused(moved(rod, "-0.5 mm"), "case.toml:12:1: magnetic:", "outside the box");
+  refused(field_with(
+              "field = \"wire\"\nposition = [\"4 um\", \"4 um\", \"4 um\"]\ncurrent = \"1 A\"\n"),
+          "case.toml:12:1: magnetic:", "outside the box");
+  const Outcome outcome = run(moved(block, "-501 um"), "--set 'magnetic.remanence=100 T'");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_NE(outcome.error.find("drift"), std::string::npos) << outcome.error;
+}
+
+TEST_F(BadInput, Tables) {
+  const auto write = [&](double low, double step, const std::string& last) {
+    std::ofstream file(directory_ / "B.csv");
+    file << "x_m,y_m,z_m,Bx_T,By_T,Bz_T\n";
+    for (int k = 0; k < 64; ++k)
+      file << low + step * (k % 4) << "," << low + step * (k / 4 % 4) << ","
+           << low + step * (k / 16) << (k < 63 ? ",0,0,0.01\n" : last);
+  };
+  const std::string table = field_with("field = \"table\"\nfile = \"B.csv\"\n");
+  refused(field_with("field = \"table\"\n"), "case.toml:12:1: magnetic.file:", "is missing");
+  refused(field_with("field = \"table\"\nfile = \"C.csv\"\n"),
+          "case.toml:14:8: magnetic.file:", "cannot be read");
+  write(0, 3e-6, ",0,0\n");
+  refused(table, "case.toml:14:8: magnetic.file:", "B.csv: line 65: the row has 5 columns");
+  write(0, 2e-6, ",0,0,0\n");
+  refused(table, "case.toml:12:1: magnetic: table, ends inside the box", "covers the box");
+  write(0, 3e-6, ",0,0,0\n");
+  const Outcome outcome = run(table);
+  EXPECT_EQ(outcome.code, 0) << outcome.error;
+  EXPECT_TRUE(std::filesystem::exists(directory_ / "result" / "magnetic.csv")) << "a copy";
+  std::ifstream kept(directory_ / "result" / "case.toml");
+  const std::string text{std::istreambuf_iterator<char>(kept), {}};
+  EXPECT_NE(text.find("magnetic.csv"), std::string::npos) << text;
 }
 
 TEST_F(BadInput, UnreadableFile) {
