@@ -131,8 +131,8 @@ private:
   std::vector<std::string> words_;
 };
 
-/// Times at which a field may be strongest: throughout the run, at the ends of ramps and pulses,
-/// and throughout a period from each of these on.
+/// Times at which a field may be strongest: throughout the run, at the start, and at the ends of
+/// ramps and pulses, and throughout a period from each of these on.
 std::vector<double> instants(const magnetic::Field& field, double last) {
   std::vector<double> events{0}, all;
   for (const auto& source : field.sources())
@@ -142,7 +142,7 @@ std::vector<double> instants(const magnetic::Field& field, double last) {
   const bool steady = std::all_of(field.sources().begin(), field.sources().end(),
                                   [](const auto& s) { return s.factor.steady(); });
   if (steady) return {0};
-  for (int k = 1; k <= instants_of_a_run; ++k) events.push_back(last * k / instants_of_a_run);
+  for (int k = 1; k <= instants_of_a_run; ++k) all.push_back(last * k / instants_of_a_run);
   for (const double event : events) {
     all.push_back(event);
     for (const auto& source : field.sources())
