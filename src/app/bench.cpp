@@ -117,7 +117,10 @@ int bench(const std::vector<std::string>& names, bool json) {
     const char* name;
     void (*run)(bool json);
   };
-  constexpr Benchmark all[] = {{"fluid", bench_fluid}, {"membrane", bench_membrane}, {"field", bench_field}};
+  constexpr Benchmark all[] = {{"fluid", bench_fluid},
+                               {"membrane", bench_membrane},
+                               {"dipole", bench_dipole},
+                               {"field", bench_field}};
   for (const std::string& name : names)
     if (std::none_of(std::begin(all), std::end(all),
                      [&](const auto& b) { return name == b.name; })) {
@@ -126,7 +129,7 @@ int bench(const std::vector<std::string>& names, bool json) {
       if (rank == 0)
         std::fprintf(stderr,
                      "hemomag bench: %s is not available in this version; accepted: fluid, "
-                     "membrane, field\n",
+                     "membrane, dipole, field\n",
                      name.c_str());
       return 2;
     }

@@ -91,7 +91,7 @@ int parse_and_run(int argc, char** argv) {
   validation->add_option("NAME", names, "validations to run");
   std::string figures = "out/validate";
   validation->add_option("--out", figures, "directory of figures and their data");
-  auto* speed = app.add_subcommand("bench", "measure speed: fluid, membrane, field");
+  auto* speed = app.add_subcommand("bench", "measure speed: fluid, membrane, dipole, field");
   speed->add_option("NAME", names, "benchmarks to run");
   for (auto* command : {validation, speed})
     command->add_flag("--json", json, "one JSON object a line");

@@ -1,6 +1,8 @@
 #pragma once
 #include <array>
 
+#include "base/error.hpp"
+
 // Measurements and simulations that validations compare with, digitised.
 
 namespace hemomag::app {
@@ -114,5 +116,34 @@ inline constexpr std::array<ThresholdPoint, 10> tumbling_thresholds{{
     {31.0, 0.0582, "Abkarian et al. 2007"},
     {31.0, 0.0467, "Abkarian et al. 2007"},
 }};
+/// Critical frequency of a magnetic chain of N touching spheres in a rotating field, as w = omega 6
+/// pi eta a^2/F0 with F0 of Eq. 45: without hydrodynamic interaction, with that of Rotne, Prager
+/// and Yamakawa and the soft repulsion of kappa 30 and 60 (own simulations, shared reference data),
+/// and of a slender body whose torque just suffices, 0.28125 (N - 1)(ln(N/2) + 2.4/N)/N^3.
+struct ChainPoint {
+  int carriers;
+  double free_draining, rpy_kappa30, rpy_kappa60, slender_body;
+};
+inline constexpr std::array<ChainPoint, 12> chain_breakup{{
+    {2, 0.05202, 0.03014, 0.03258, 0.04219},
+    {3, 0.02794, 0.02261, 0.02458, 0.02511},
+    {4, 0.01495, 0.01625, 0.01757, 0.01705},
+    {5, 0.01017, 0.01222, 0.01322, 0.01257},
+    {6, 0.00691, 0.00913, 0.00987, 0.00976},
+    {7, 0.00522, 0.00741, 0.00801, 0.00785},
+    {8, 0.00395, 0.00600, 0.00649, 0.00648},
+    {9, 0.00318, 0.00507, 0.00548, 0.00547},
+    {10, 0.00254, 0.00425, 0.00462, 0.00468},
+    {11, 0.00214, 0.00369, 0.00401, 0.00406},
+    {13, 0.00153, 0.00284, 0.00309, 0.00316},
+    {15, 0.00115, 0.00226, 0.00245, 0.00254},
+}};
+
+/// w of kappa 60. @throws Error without a row for N
+inline double critical_frequency(int N) {
+  for (const ChainPoint& p : chain_breakup)
+    if (p.carriers == N) return p.rpy_kappa60;
+  throw Error("no critical frequency for this number of carriers");
+}
 
 }  // namespace hemomag::app

@@ -208,9 +208,16 @@ private:
         too_large ? Verdict::refused : Verdict::fine,
         text("radius under the kernel's own, %.4g nm; use a larger dx", R * 1e9));
     if (too_large) return;
+    if (carrier.density) inertia(carrier);
     pull(carrier);
     if (c_.magnetic.dipoles) contact(carrier);
     if (carrier.kind == CarrierKind::worm) worm(carrier);
+  }
+
+  void inertia(const Carrier& carrier) {
+    const double relaxation = inertial_mass(c_, carrier) / bare_friction(c_, carrier);
+    add("carrier inertia",
+        text("m/Gamma = %.3g us, %.3g steps", relaxation * 1e6, relaxation / units_.dt));
   }
 
   /// Carriers go everywhere in the box: no matter of a source may be there, and no table end.
@@ -308,8 +315,11 @@ private:
     const double m = largest_moment(carrier);
     const double lambda = m * m / (4 * std::numbers::pi * d * d * d * kBT);
     add("dipole strength lambda", text("%.3g (contact energy over 2 kBT)", lambda));
-    const double substeps = std::max(
-        1.0, std::ceil(2 * contact_stiffness(carrier) * units_.dt / bare_friction(c_, carrier)));
+    const double cutoff = dipole_cutoff(c_) * units_.dx;
+    add("dipole cut-off", text("%.4g um, neglects %.2g of the contact pull", cutoff * 1e6,
+                               magnetic::neglected_pull(d, cutoff)));
+    const double substeps = magnetic::contact_substeps(contact_stiffness(carrier) * units_.dt /
+                                                       bare_friction(c_, carrier));
     add("contact sub-steps", text("%.0f", substeps),
         substeps <= LAMMPS_NS::FixHemoDrag::most_substeps ? Verdict::fine : Verdict::refused,
         text("at most %d: lower B0 or dt", LAMMPS_NS::FixHemoDrag::most_substeps));
@@ -322,17 +332,17 @@ private:
     const double m = largest_moment(carrier);
     const double pull = magnetic::contact_pull(m, m, d);
     return c_.contact.repulsion == Repulsion::soft
-               ? magnetic::soft_stiffness(pull, soft_kappa, d)
+               ? magnetic::soft_stiffness(pull, c_.contact.repulsion_kappa, d)
                : magnetic::paper_stiffness(pull, 0.1 * kBT, 0.1 * carrier.radius);
   }
 
   /// Largest stable 8 k dt/Gamma of the bonds of a chain whose contacts add the rate c = 4
   /// k_contact dt/Gamma in their own n = ceil(c/2) sub-steps while the bonds stand still: the
-  /// stiffest mode is multiplied by q - (b/c)(1 - q), q = (1 - c/n)^n, in a step, which has to stay
-  /// above -1. Without contact forces the limit is 2.
+  /// stiffest mode is multiplied by q - (b/c)(1 - q), q = (1 - c/n)^n, in a step, which has to
+  /// stay above -1. Without contact forces the limit is 2.
   static double bond_limit(double c) {
     if (c < 1e-9) return 2;
-    const double n = std::max(1.0, std::ceil(c / 2));
+    const double n = magnetic::contact_substeps(c / 4);
     const double q = std::pow(1 - c / n, n);
     return c * (1 + q) / (1 - q);
   }
@@ -361,9 +371,9 @@ private:
     double bytes, seconds;
   };
 
-  /// Of a node; measured for trt in double precision. The others follow from what they move: single
-  /// precision halves the 19 populations of 25 numbers, the exponential scheme keeps a second set
-  /// and moves about twice as much. Solid nodes count like fluid.
+  /// Of a node; measured for trt in double precision. The others follow from what they move:
+  /// single precision halves the 19 populations of 25 numbers, the exponential scheme keeps a
+  /// second set and moves about twice as much. Solid nodes count like fluid.
   NodeCost node_cost() const {
     NodeCost node{210, 10e-9};
     const double populations = c_.numerics.precision == "single" ? 0.5 : 1;
@@ -380,9 +390,9 @@ private:
     for (std::size_t m = 0; m < c_.cells.size(); ++m)
       vertices +=
           static_cast<double>(cell_count(c_, c_.cells[m], models_[m])) * c_.cells[m].vertices;
-    // Measured with one and two ranks on the demo and on 108 x 144 x 96 nodes with 40 cells of 3286
-    // vertices: 210 bytes a node, 2.5 kB a vertex with its lists, 50 MB a rank. On two cores these
-    // take 2.2 and 60 ms a step, which 10 ns a node and 250 ns a vertex meet to a quarter.
+    // Measured with one and two ranks on the demo and on 108 x 144 x 96 nodes with 40 cells of
+    // 3286 vertices: 210 bytes a node, 2.5 kB a vertex with its lists, 50 MB a rank. On two cores
+    // these take 2.2 and 60 ms a step, which 10 ns a node and 250 ns a vertex meet to a quarter.
     const NodeCost node = node_cost();
     const double seconds =
         static_cast<double>(steps(c_)) * (grid * node.seconds + vertices * 250e-9);

@@ -90,6 +90,7 @@ struct Carrier {
   double susceptibility = 0.4;
   double magnetic_fraction = 0.6;
   double saturation_magnetisation = 0;  ///< [A/m] of the magnetic part; 0: linear
+  std::optional<double> density;  ///< [kg/m3]; without it there is no inertia
   bool feedback = true;
 };
 
@@ -103,6 +104,7 @@ struct Contact {
   double epsilon = 1.0;              ///< [kBT] at 3286 vertices
   double plate_sigma = 0.25e-6;      ///< [m]
   Repulsion repulsion = Repulsion::soft;
+  double repulsion_kappa = 30;  ///< of the soft one
 };
 
 /// One of the fields that add up; which of its values count depends on the kind.

@@ -283,7 +283,7 @@ Cell read_cell(const Table& t, const std::string& case_path) {
   return cell;
 }
 
-Carrier read_carrier(const Table& t) {
+Carrier read_carrier(const Table& t, double fluid_density) {
   Carrier carrier;
   carrier.kind = t.word("kind") == "worm" ? CarrierKind::worm : CarrierKind::particle;
   for (const char* key : {"beads", "stretching", "bending"})
@@ -296,11 +296,15 @@ Carrier read_carrier(const Table& t) {
   carrier.radius = t.quantity("radius");
   carrier.susceptibility = t.number("susceptibility");
   carrier.magnetic_fraction = t.number("magnetic_fraction");
+  carrier.density = t.optional_quantity("density");
   carrier.saturation_magnetisation = t.optional_quantity("saturation_magnetisation").value_or(0);
   if (carrier.susceptibility <= 0)
     t.refuse_if_given("saturation_magnetisation", "needs a susceptibility above 0; accepted: that, "
                                                   "or leave it out");
   carrier.feedback = t.flag("feedback");
+  if (carrier.density && carrier.feedback && *carrier.density < fluid_density)
+    t.fail("density", "is below the fluid's, whose mass is already there; accepted: at least "
+                      "fluid.density, or feedback = false");
   return carrier;
 }
 
@@ -314,6 +318,10 @@ void read_contact(Case& c, const Table& t) {
   c.contact.epsilon = t.number("epsilon");
   c.contact.plate_sigma = t.quantity("plate_sigma");
   c.contact.repulsion = t.word("repulsion") == "soft" ? Repulsion::soft : Repulsion::paper;
+  if (c.contact.repulsion == Repulsion::paper && t.has("repulsion_kappa"))
+    t.fail("repulsion_kappa", "is of the soft repulsion; accepted: repulsion = \"soft\", or leave "
+                              "it out");
+  c.contact.repulsion_kappa = t.number("repulsion_kappa");
 }
 
 void read_analysis(Case& c, const Table& t) {
@@ -429,7 +437,7 @@ Case read_case(const std::string& path, const std::vector<std::string>& override
   for (const Table& t : entries(source, source.root.get("cell"), "cell", "cell"))
     c.cells.push_back(read_cell(t, path));
   for (const Table& t : entries(source, source.root.get("carrier"), "carrier", "carrier")) {
-    c.carriers.push_back(read_carrier(t));
+    c.carriers.push_back(read_carrier(t, c.fluid.density));
     if (c.carriers.back().feedback != c.carriers.front().feedback)
       t.fail("feedback", "differs from another [[carrier]]; accepted: the same for all");
   }

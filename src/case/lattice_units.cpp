@@ -117,4 +117,11 @@ double bare_friction(const Case& c, const Carrier& carrier) {
                           : stokes_friction(c, carrier);
 }
 
+double inertial_mass(const Case& c, const Carrier& carrier) {
+  if (!carrier.density) return 0;
+  const double excess = *carrier.density - (carrier.feedback ? c.fluid.density : 0);
+  const double scaling = lattice_units(c).density / c.fluid.density;
+  return scaling * excess * 4.0 / 3 * std::numbers::pi * std::pow(carrier.radius, 3);
+}
+
 }  // namespace hemomag::case_

@@ -72,4 +72,9 @@ double point_radius(const Case& c);
 double stokes_friction(const Case& c, const Carrier& carrier);
 double bare_friction(const Case& c, const Carrier& carrier);
 
+/// Mass with which a carrier bead resists acceleration [kg], scaled like the fluid's density; zero
+/// without a density. With feedback the displaced fluid is part of the lattice and moves along:
+/// what counts is the excess mass. One-way it is the whole mass.
+double inertial_mass(const Case& c, const Carrier& carrier);
+
 }  // namespace hemomag::case_

@@ -153,7 +153,8 @@ private:
         }
         const double contact = length(c_.carriers[a].radius + c_.carriers[b].radius);
         if (c_.contact.repulsion == Repulsion::soft)
-          line("pair_coeff %zu %zu %s%.9g soft %g", i, j, style, contact, soft_kappa);
+          line("pair_coeff %zu %zu %s%.9g soft %g", i, j, style, contact,
+               c_.contact.repulsion_kappa);
         else  // Eq. 26: epsilon = 0.1 kBT, sigma = 0.1 a
           line("pair_coeff %zu %zu %s%.9g paper %.9g %.9g", i, j, style, contact,
                0.1 * kBT / units_.energy(), 0.05 * contact);
@@ -187,6 +188,10 @@ private:
       t_ += "fix drag carriers hemo/drag";
       for (std::size_t b = 0; b < carriers_; ++b)
         append(" radius %zu %.9g", cells_ + b + 1, length(c_.carriers[b].radius));
+      const double mass_unit = units_.mass();
+      for (std::size_t b = 0; b < carriers_; ++b)
+        if (const double m = inertial_mass(c_, c_.carriers[b]); m > 0)
+          append(" inertia %zu %.9g", cells_ + b + 1, m / mass_unit);
       line(" feedback %s", c_.carriers[0].feedback ? "yes" : "no");
       field();
     }

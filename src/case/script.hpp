@@ -10,9 +10,6 @@ namespace hemomag::case_ {
 /// relative to the run directory.
 std::string lammps_script(const Case& c, const System& system);
 
-/// Steepness of the soft carrier-carrier repulsion.
-inline constexpr double soft_kappa = 30;
-
 /// Cut-off of the dipole forces, in nodes.
 double dipole_cutoff(const Case& c);
 /// sigma of the cell-cell repulsion [m]: the case's, or 0.6 times the longest rest edge, at least

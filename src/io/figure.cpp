@@ -256,4 +256,57 @@ std::string draw_bodies(const std::vector<Body>& bodies, double tilt, double bar
   return document(at, head + tallest + foot, content);
 }
 
+namespace {
+
+/// An arrow from one point to another, in pixels.
+std::string arrow(double x0, double y0, double x1, double y1, const std::string& colour,
+                  double thickness) {
+  const double dx = x1 - x0, dy = y1 - y0;
+  constexpr double back = 0.35, aside = 0.18;  // of the head, over the length
+  return text("<path d=\"M%.2f %.2fL%.2f %.2fM%.2f %.2fL%.2f %.2fL%.2f %.2f\" fill=\"none\" "
+              "stroke-width=\"%g\" stroke=\"%s\"/>\n",
+              x0, y0, x1, y1, x1 - back * dx - aside * dy, y1 - back * dy + aside * dx, x1, y1,
+              x1 - back * dx + aside * dy, y1 - back * dy - aside * dx, thickness, colour.c_str());
+}
+
+std::string draw_flow(const FlowPicture& p, double left_edge, double top_edge, double scale) {
+  const auto px = [&](double x) { return left_edge + x * scale; };
+  const auto py = [&](double y) { return top_edge + (p.height - y) * scale; };
+  std::string out = word(px(p.width / 2), top_edge - 12, "middle", p.label);
+  for (const auto& [x, y, u, v] : p.flow) {
+    const double share = std::min(1.0, std::hypot(u, v) / p.fastest);
+    const double length = p.arrow / p.fastest;
+    const auto colour = text("#%02x%02x%02x", static_cast<int>(30 + 200 * share), 60,
+                             static_cast<int>(200 - 170 * share));
+    out += arrow(px(x), py(y), px(x + u * length), py(y + v * length), colour, 1);
+  }
+  for (const auto& [x, y] : p.spheres)
+    out += text("<circle cx=\"%.2f\" cy=\"%.2f\" r=\"%.2f\" fill=\"#555555\" "
+                "stroke=\"black\"/>\n",
+                px(x), py(y), p.radius * scale);
+  if (const double n = std::hypot(p.axis[0], p.axis[1]); n > 0) {
+    const double half = 0.06 * p.width, x = 0.1 * p.width, y = 0.9 * p.height;
+    const double ex = half * p.axis[0] / n, ey = half * p.axis[1] / n;
+    out += arrow(px(x - ex), py(y - ey), px(x + ex), py(y + ey), "black", 2);
+  }
+  return out + text("<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" fill=\"none\" "
+                    "stroke=\"black\"/>\n",
+                    px(0), py(p.height), p.width * scale, p.height * scale);
+}
+
+}  // namespace
+
+std::string draw_flows(const std::vector<FlowPicture>& pictures) {
+  constexpr double side = 340, gap = 14, head = 34;  // pixels
+  std::string content;
+  double at = gap, tallest = 0;
+  for (const FlowPicture& p : pictures) {
+    const double scale = side / p.width;
+    content += draw_flow(p, at, head, scale);
+    tallest = std::max(tallest, p.height * scale);
+    at += side + gap;
+  }
+  return document(at, head + tallest + gap, content);
+}
+
 }  // namespace hemomag::io

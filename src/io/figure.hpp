@@ -41,4 +41,19 @@ struct Body {
 std::string draw_bodies(const std::vector<Body>& bodies, double tilt, double bar,
                         const std::string& bar_label);
 
+/// Spheres in a plane with the flow around them.
+struct FlowPicture {
+  std::string label;
+  double width = 0, height = 0;                ///< of the picture [length]
+  std::vector<std::array<double, 2>> spheres;  ///< centres
+  double radius = 0;
+  std::vector<std::array<double, 4>> flow;  ///< x, y, and the velocity there
+  double fastest = 0;                       ///< speed of the reddest, longest arrow
+  double arrow = 0;                         ///< its length [length]
+  std::array<double, 2> axis{};             ///< a direction to be marked, e.g. of a field
+};
+
+/// Pictures in one row, speeds from blue to red.
+std::string draw_flows(const std::vector<FlowPicture>& pictures);
+
 }  // namespace hemomag::io

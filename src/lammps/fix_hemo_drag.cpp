@@ -22,8 +22,7 @@
 using namespace LAMMPS_NS;
 
 FixHemoDrag::FixHemoDrag(LAMMPS* lmp, int narg, char** arg)
-    : Fix(lmp, narg, arg), radius_(static_cast<std::size_t>(atom->ntypes) + 1, 0.0),
-      mobility_(radius_.size(), 0.0) {
+    : Fix(lmp, narg, arg), kinds_(static_cast<std::size_t>(atom->ntypes) + 1) {
   time_integrate = 1;
   scalar_flag = 1;
   global_freq = 1;
@@ -31,14 +30,14 @@ FixHemoDrag::FixHemoDrag(LAMMPS* lmp, int narg, char** arg)
   comm_forward = comm_reverse = 3;
   for (int at = 3; at < narg;) {
     const std::string key = arg[at++];
-    if (key == "radius" && at + 1 < narg) {
+    if ((key == "radius" || key == "inertia") && at + 1 < narg) {
       const int type = utils::inumeric(FLERR, arg[at++], false, lmp);
-      const double a = utils::numeric(FLERR, arg[at++], false, lmp);
-      if (type < 1 || type > atom->ntypes || a <= 0)
-        error->all(
-            FLERR,
-            std::string("fix hemo/drag: radius TYPE A needs an atom type of the system and A > 0"));
-      radius_[static_cast<std::size_t>(type)] = a;
+      const double value = utils::numeric(FLERR, arg[at++], false, lmp);
+      if (type < 1 || type > atom->ntypes || !(value > 0))
+        error->all(FLERR, "fix hemo/drag: " + key + (key == "radius" ? " TYPE A" : " TYPE M") +
+                              " needs an atom type of the system and a value > 0");
+      auto& kind = kinds_[static_cast<std::size_t>(type)];
+      (key == "radius" ? kind.radius : kind.mass) = value;
     } else if (key == "feedback" && at < narg) {
       const std::string word = arg[at++];
       if (word != "yes" && word != "no")
@@ -47,7 +46,7 @@ FixHemoDrag::FixHemoDrag(LAMMPS* lmp, int narg, char** arg)
     } else {
       error->all(FLERR, "fix hemo/drag: " + key +
                             " is unknown or lacks values; accepted: radius TYPE A, "
-                            "feedback yes|no");
+                            "inertia TYPE M, feedback yes|no");
     }
   }
   FixHemoDrag::grow_arrays(atom->nmax);
@@ -57,8 +56,9 @@ FixHemoDrag::FixHemoDrag(LAMMPS* lmp, int narg, char** arg)
 
 FixHemoDrag::~FixHemoDrag() {
   atom->delete_callback(id, Atom::GROW);
-  memory->destroy(mean_stiff_);
+  memory->destroy(added_);
   memory->destroy(stiff_);
+  memory->destroy(drift_);
 }
 
 int FixHemoDrag::setmask() { return FixConst::INITIAL_INTEGRATE | FixConst::POST_FORCE; }
@@ -67,12 +67,14 @@ void FixHemoDrag::init() {
   fluid_ = hemomag::lammps::find_fix<FixHemoFluid>(lmp, "hemo/fluid");
   if (!fluid_) error->all(FLERR, std::string("fix hemo/drag needs a fix hemo/fluid"));
   dipoles_ = dynamic_cast<PairHemoDipole*>(force->pair_match("hemo/dipole", 1));
-  for (std::size_t type = 1; type < radius_.size(); ++type)
-    if (radius_[type] > 0) mobility_[type] = 1.0 / bare_friction(radius_[type]);
+  for (Kind& kind : kinds_) {
+    if (kind.radius == 0) continue;
+    kind.mobility = 1.0 / bare_friction(kind.radius);
+    kind.relaxation_time = kind.mass * kind.mobility;
+  }
   int without_radius = 0;
   for (int i = 0; i < atom->nlocal; ++i)
-    if ((atom->mask[i] & groupbit) && radius_[static_cast<std::size_t>(atom->type[i])] == 0)
-      without_radius = atom->type[i];
+    if (carrier(i) && kind_of(i).radius == 0) without_radius = atom->type[i];
   int any = 0;
   MPI_Allreduce(&without_radius, &any, 1, MPI_INT, MPI_MAX, world);
   if (any)
@@ -97,23 +99,35 @@ double FixHemoDrag::bare_friction(double a) const {
   return stokes / (1 - a / R);
 }
 
-/// n_sub = ceil(2 k dt/Gamma): the stiffest mode of a chain of contacts has 4 k/Gamma, an explicit
-/// step is stable below 2 of it. Chosen anew for every neighbour list, since moments grow as
-/// carriers approach a magnet.
+/// Chosen anew for every neighbour list, since moments grow as carriers approach a magnet. What is
+/// stable without inertia is so with it.
 void FixHemoDrag::choose_substeps() {
   if (!dipoles_ || chosen_at_ == neighbor->lastcall) return;
   chosen_at_ = neighbor->lastcall;
-  const double softest = *std::max_element(mobility_.begin(), mobility_.end());
-  const double needed = std::ceil(2 * dipoles_->max_stiffness() * softest);
+  double most_mobile = 0;
+  for (const Kind& kind : kinds_) most_mobile = std::max(most_mobile, kind.mobility);
+  const double stiffness = dipoles_->max_stiffness();
+  const double needed = hemomag::magnetic::contact_substeps(stiffness * most_mobile);
   if (!(needed <= most_substeps))
     error->all(FLERR, "fix hemo/drag: step " + std::to_string(update->ntimestep) +
                           ": the contact forces need " + std::to_string(needed) +
                           " sub-steps, more than " + std::to_string(most_substeps) +
                           " (field too strong, or dt too long)");
-  substeps_ = std::max(1, static_cast<int>(needed));
+  substeps_ = static_cast<int>(needed);
+  if (substeps_ > most_reported_) {
+    most_reported_ = substeps_;
+    utils::logmesg(lmp, "fix hemo/drag: step " + std::to_string(update->ntimestep) + ": " +
+                            std::to_string(substeps_) + " sub-steps for contacts of stiffness " +
+                            std::to_string(stiffness) + "\n");
+  }
 }
 
-/// Dipole and contact forces of owned carriers at the present positions, into stiff_.
+bool FixHemoDrag::carrier(int i) const { return (atom->mask[i] & groupbit) != 0; }
+
+const FixHemoDrag::Kind& FixHemoDrag::kind_of(int i) const {
+  return kinds_[static_cast<std::size_t>(atom->type[i])];
+}
+
 void FixHemoDrag::stiff_forces() {
   const int all = atom->nlocal + atom->nghost;
   if (all > 0) std::fill_n(stiff_[0], 3 * all, 0.0);
@@ -121,77 +135,93 @@ void FixHemoDrag::stiff_forces() {
   comm->reverse_comm_fix(this);
 }
 
+long FixHemoDrag::pairs() { return dipoles_->pairs(); }
+
+void FixHemoDrag::forward_positions() { comm->forward_comm_fix(this); }
+
 void FixHemoDrag::setup(int vflag) {
   if (!started_ && dipoles_) {
     stiff_forces();
-    for (int i = 0; i < atom->nlocal; ++i)
-      for (int d = 0; d < 3; ++d) mean_stiff_[i][d] = stiff_[i][d];
+    for (int i = 0; i < atom->nlocal; ++i) std::copy_n(stiff_[i], 3, added_[i]);
   }
   started_ = true;
   post_force(vflag);
 }
 
-/// u_b = u_f + F/Gamma_bare (Eqs. 33, 35 without inertia), the stiff part of F renewed n_sub times
-/// a step. Differs from the paper: explicit Verlet with m du/dt = -Gamma (u_b - u_f) + F is
-/// unstable at its parameters.
+/// m du_b/dt = -Gamma (u_b - u_f) + F (Eqs. 33, 35), the stiff part of F renewed n_sub times a step
+/// and every sub-step h solved exactly for a force that stands still: with w = u_f + F/Gamma, t_m =
+/// m/Gamma and E = exp(-h/t_m) the velocity becomes w + (u_b - w) E, and the place moves by w h +
+/// (u_b - w) t_m (1 - E). Without inertia, m = 0, this is u_b = w. Differs from the paper: explicit
+/// Verlet is unstable at its parameters.
 void FixHemoDrag::initial_integrate(int) {
-  fluid_->velocity_at_atoms(groupbit, atom->v);
+  fluid_->velocity_at_atoms(groupbit, drift_);
   choose_substeps();
   double **x = atom->x, **v = atom->v, **f = atom->f;
-  const double part = 1.0 / substeps_;
+  const double h = 1.0 / substeps_;
   const int n = atom->nlocal;
-  const auto carrier = [&](int i) { return (atom->mask[i] & groupbit) != 0; };
   for (int i = 0; i < n; ++i) {
     if (!carrier(i)) continue;
-    const double mobility = mobility_[static_cast<std::size_t>(atom->type[i])];
+    const Kind& kind = kind_of(i);
     for (int d = 0; d < 3; ++d) {
-      v[i][d] += mobility * (f[i][d] - mean_stiff_[i][d]);
-      mean_stiff_[i][d] = 0;
+      drift_[i][d] += kind.mobility * (f[i][d] - added_[i][d]);
+      // The drag on the fluid is what is left of the forces when the carrier has taken its share.
+      added_[i][d] = kind.mass * v[i][d];
     }
   }
   for (int s = 0; s < substeps_; ++s) {
     if (dipoles_) stiff_forces();
     for (int i = 0; i < n; ++i) {
       if (!carrier(i)) continue;
-      const double mobility = mobility_[static_cast<std::size_t>(atom->type[i])];
+      const Kind& kind = kind_of(i);
+      const double kept = kind.mass > 0 ? std::exp(-h / kind.relaxation_time) : 0;
+      const double slip_time = kind.relaxation_time * (1 - kept);
       for (int d = 0; d < 3; ++d) {
         const double stiff = dipoles_ ? stiff_[i][d] : 0.0;
-        x[i][d] += part * (v[i][d] + mobility * stiff);
-        mean_stiff_[i][d] += part * stiff;
+        const double w = drift_[i][d] + kind.mobility * stiff;
+        const double slip = v[i][d] - w;
+        x[i][d] += w * h + slip * slip_time;
+        v[i][d] = w + slip * kept;
+        added_[i][d] += h * stiff;
       }
     }
-    if (s + 1 < substeps_) comm->forward_comm_fix(this);
+    if (s + 1 < substeps_) forward_positions();
   }
   for (int i = 0; i < n; ++i) {
     if (!carrier(i)) continue;
-    const double mobility = mobility_[static_cast<std::size_t>(atom->type[i])];
-    for (int d = 0; d < 3; ++d) v[i][d] += mobility * mean_stiff_[i][d];
+    const Kind& kind = kind_of(i);
+    for (int d = 0; d < 3; ++d) {
+      added_[i][d] -= kind.mass * v[i][d];
+      // Without inertia the velocity is that of the whole step, not of its last part.
+      if (kind.mass == 0) v[i][d] = drift_[i][d] + kind.mobility * added_[i][d];
+    }
   }
 }
 
-/// The fluid receives the mean of the stiff forces over the step with all the others.
+/// The fluid receives the mean of the stiff forces over the step with all the others, less what
+/// went into the carrier's own momentum.
 void FixHemoDrag::post_force(int) {
   for (int i = 0; i < atom->nlocal; ++i)
-    if (atom->mask[i] & groupbit)
-      for (int d = 0; d < 3; ++d) atom->f[i][d] += mean_stiff_[i][d];
+    if (carrier(i))
+      for (int d = 0; d < 3; ++d) atom->f[i][d] += added_[i][d];
 }
 
 void FixHemoDrag::grow_arrays(int nmax) {
-  memory->grow(mean_stiff_, nmax, 3, "hemo/drag:mean_stiff");
+  memory->grow(added_, nmax, 3, "hemo/drag:added");
   memory->grow(stiff_, nmax, 3, "hemo/drag:stiff");
+  memory->grow(drift_, nmax, 3, "hemo/drag:drift");
 }
 
-void FixHemoDrag::copy_arrays(int i, int j, int) { std::copy_n(mean_stiff_[i], 3, mean_stiff_[j]); }
+void FixHemoDrag::copy_arrays(int i, int j, int) { std::copy_n(added_[i], 3, added_[j]); }
 
-void FixHemoDrag::set_arrays(int i) { std::fill_n(mean_stiff_[i], 3, 0.0); }
+void FixHemoDrag::set_arrays(int i) { std::fill_n(added_[i], 3, 0.0); }
 
 int FixHemoDrag::pack_exchange(int i, double* buffer) {
-  std::copy_n(mean_stiff_[i], 3, buffer);
+  std::copy_n(added_[i], 3, buffer);
   return 3;
 }
 
 int FixHemoDrag::unpack_exchange(int i, double* buffer) {
-  std::copy_n(buffer, 3, mean_stiff_[i]);
+  std::copy_n(buffer, 3, added_[i]);
   return 3;
 }
 
@@ -227,4 +257,4 @@ void FixHemoDrag::unpack_reverse_comm(int n, int* list, double* buffer) {
       for (int d = 0; d < 3; ++d) stiff_[list[k]][d] += *buffer++;
 }
 
-double FixHemoDrag::memory_usage() { return 6.0 * sizeof(double) * atom->nmax; }
+double FixHemoDrag::memory_usage() { return 9.0 * sizeof(double) * atom->nmax; }

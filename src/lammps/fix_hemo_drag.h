@@ -16,8 +16,8 @@ namespace LAMMPS_NS {
 class FixHemoFluid;
 class PairHemoDipole;
 
-/// `fix hemo/drag`: carriers, overdamped, with the stiff forces between them sub-stepped
-/// (docs/styles/fix_hemo_drag.md).
+/// `fix hemo/drag`: carriers, overdamped or with inertia, with the stiff forces between them
+/// sub-stepped (docs/styles/fix_hemo_drag.md).
 class FixHemoDrag : public Fix {
 public:
   FixHemoDrag(LAMMPS*, int, char**);
@@ -43,22 +43,40 @@ public:
   static constexpr int most_substeps = 16;
 
   bool feedback() const { return feedback_; }
+  int substeps() const { return substeps_; }
+
+  /// Dipole and contact forces of owned carriers at the present positions, as every sub-step needs
+  /// them. Collective; needs a dipole style and a neighbour list.
+  void stiff_forces();
+  /// Pairs within the dipoles' cut-off, over all ranks. Collective.
+  long pairs();
+  /// Positions of ghost carriers, as between two sub-steps. Collective.
+  void forward_positions();
 
 private:
+  /// What a carrier type is. Friction and relaxation time follow in init.
+  struct Kind {
+    double radius = 0;           // 0: not a carrier
+    double mass = 0;             // 0: overdamped
+    double mobility = 0;         // 1/Gamma_bare
+    double relaxation_time = 0;  // mass/Gamma_bare
+  };
   double bare_friction(double radius) const;
   void choose_substeps();
-  void stiff_forces();
+  bool carrier(int i) const;
+  const Kind& kind_of(int i) const;
 
-  std::vector<double> radius_;    // by type, 0: not a carrier
-  std::vector<double> mobility_;  // 1/Gamma_bare by type
+  std::vector<Kind> kinds_;  // by type
   bool feedback_ = true;
   int substeps_ = 1;
+  int most_reported_ = 0;  // sub-steps that the log knows of
   bigint chosen_at_ = -1;  // step of the neighbour list for which substeps_ was chosen
-  bool started_ = false;   // mean_stiff_ holds the force of the last step
+  bool started_ = false;   // added_ holds the force of the last step
   FixHemoFluid* fluid_ = nullptr;
   PairHemoDipole* dipoles_ = nullptr;
-  double** mean_stiff_ = nullptr;  // stiff force of the last step, as already contained in f
-  double** stiff_ = nullptr;       // of the present sub-step, owned and ghost
+  double** added_ = nullptr;  // what post_force added for the last step, as contained in f
+  double** stiff_ = nullptr;  // of the present sub-step, owned and ghost
+  double** drift_ = nullptr;  // u_f + F'/Gamma of the present step
 };
 
 }  // namespace LAMMPS_NS

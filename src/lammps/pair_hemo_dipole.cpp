@@ -17,6 +17,7 @@
 #include "lammps/compat.hpp"
 #include "lammps/fix_hemo_drag.h"
 #include "lammps/fix_hemo_field.h"
+#include "magnetic/dipole_rows.hpp"
 
 using namespace LAMMPS_NS;
 namespace magnetic = hemomag::magnetic;
@@ -62,10 +63,12 @@ void PairHemoDipole::coeff(int narg, char** arg) {
   const std::string kind = arg[3];
   if (kind == "soft" && narg == 5) {
     p.kappa = utils::numeric(FLERR, arg[4], false, lmp);
+    p.reach2 = std::pow(magnetic::soft_reach(p.kappa, p.contact_distance), 2);
   } else if (kind == "paper" && narg == 6) {
     p.repulsion = Repulsion::paper;
     p.epsilon = utils::numeric(FLERR, arg[4], false, lmp);
     p.sigma = utils::numeric(FLERR, arg[5], false, lmp);
+    p.reach2 = std::pow(p.contact_distance + p.sigma, 2);
   } else {
     error->all(FLERR, usage);
   }
@@ -97,29 +100,27 @@ double PairHemoDipole::init_one(int i, int j) {
   return cutoff_;
 }
 
-/// Force on j and energy, r from i to j.
-magnetic::PairForce PairHemoDipole::force_between(int i, int j, const Vec3& r) {
-  const auto* m = reinterpret_cast<const Vec3*>(field_->moments()[0]);
+/// Force on j and energy of the contact, r from i to j.
+magnetic::PairForce PairHemoDipole::repulsion_between(int i, int j, const Vec3& r) const {
   const Pairing& p = between(atom->type[i], atom->type[j]);
-  auto pair = magnetic::dipole_dipole(m[i], m[j], r);
-  magnetic::PairForce repulsion{};
+  if (norm2(r) >= p.reach2) return {};
   if (p.repulsion == Repulsion::soft) {
-    const double pull = magnetic::contact_pull(norm(m[i]), norm(m[j]), p.contact_distance);
-    repulsion = magnetic::soft_repulsion(pull, p.kappa, p.contact_distance, r);
-  } else {
-    if (norm(r) <= p.contact_distance)
-      hemomag::lammps::fail_here(
-          lmp, FLERR,
-          "pair_style hemo/dipole: step " + std::to_string(update->ntimestep) + ": carriers " +
-              std::to_string(atom->tag[i]) + " and " + std::to_string(atom->tag[j]) +
-              " touch, where the repulsion of Eq. 26 is singular (use soft)");
-    repulsion = magnetic::paper_repulsion(p.epsilon, p.sigma, p.contact_distance, r);
+    const auto* m = reinterpret_cast<const Vec3*>(field_->moments()[0]);
+    return magnetic::soft_repulsion(
+        magnetic::contact_pull(norm(m[i]), norm(m[j]), p.contact_distance), p.kappa,
+        p.contact_distance, r);
   }
-  return {pair.on_j + repulsion.on_j, pair.energy + repulsion.energy};
+  if (norm2(r) <= p.contact_distance * p.contact_distance)
+    hemomag::lammps::fail_here(lmp, FLERR,
+                               "pair_style hemo/dipole: step " + std::to_string(update->ntimestep) +
+                                   ": carriers " + std::to_string(atom->tag[i]) + " and " +
+                                   std::to_string(atom->tag[j]) +
+                                   " touch, where the repulsion of Eq. 26 is singular (use soft)");
+  return magnetic::paper_repulsion(p.epsilon, p.sigma, p.contact_distance, r);
 }
 
 /// visit(i, j, r) for every pair of the list within the cut-off.
-template <class Visit> void PairHemoDipole::for_each_pair(double** x_, Visit visit) {
+template <class Visit> void PairHemoDipole::for_each_pair(double** x_, Visit visit) const {
   if (list->inum == 0) return;
   const auto* x = reinterpret_cast<const Vec3*>(x_[0]);
   const double cut2 = cutoff_ * cutoff_;
@@ -133,14 +134,45 @@ template <class Visit> void PairHemoDipole::for_each_pair(double** x_, Visit vis
   }
 }
 
-void PairHemoDipole::accumulate(double** x, double** f_) {
-  if (atom->nlocal + atom->nghost == 0) return;
+void PairHemoDipole::accumulate(double** x_, double** f_) {
+  if (list->inum == 0) return;
+  const auto* x = reinterpret_cast<const Vec3*>(x_[0]);
   auto* f = reinterpret_cast<Vec3*>(f_[0]);
-  for_each_pair(x, [&](int i, int j, const Vec3& r) {
-    const Vec3 on_j = force_between(i, j, r).on_j;
-    f[j] += on_j;
-    f[i] -= on_j;
-  });
+  int touching[magnetic::most_in_row];
+  const double cut2 = cutoff_ * cutoff_;
+  magnetic::DipoleRow row{x_[0],
+                          field_->moments()[0],
+                          f_[0],
+                          0,
+                          nullptr,
+                          NEIGHMASK,
+                          0,
+                          cut2,
+                          std::min(cut2, longest_reach2()),
+                          touching};
+  for (int a = 0; a < list->inum; ++a) {
+    const int i = row.i = list->ilist[a], count = list->numneigh[i];
+    for (int first = 0; first < count; first += magnetic::most_in_row) {
+      row.neighbours = list->firstneigh[i] + first;
+      row.count = std::min<std::ptrdiff_t>(count - first, magnetic::most_in_row);
+      const auto n = magnetic::dipole_row(row);
+      for (std::ptrdiff_t k = 0; k < n; ++k) {
+        const int j = touching[k];
+        const Vec3 on_j = repulsion_between(i, j, x[j] - x[i]).on_j;
+        f[j] += on_j;
+        f[i] -= on_j;
+      }
+    }
+  }
+}
+
+/// Square of the distance from which on no pair repels.
+double PairHemoDipole::longest_reach2() const {
+  double reach2 = 0;
+  for (int i = 1; i <= types_; ++i)
+    for (int j = i; j <= types_; ++j)
+      if (setflag[i][j]) reach2 = std::max(reach2, between(i, j).reach2);
+  return reach2;
 }
 
 /// With fix hemo/drag defined the forces are its affair: only energy and virial are tallied here.
@@ -149,10 +181,20 @@ void PairHemoDipole::compute(int eflag, int vflag) {
   if (!substepped_) accumulate(atom->x, atom->f);
   if (!evflag) return;
   for_each_pair(atom->x, [&](int i, int j, const Vec3& r) {
-    const auto pair = force_between(i, j, r);
-    ev_tally_xyz(i, j, atom->nlocal, force->newton_pair, 0.0, pair.energy, -pair.on_j.x,
-                 -pair.on_j.y, -pair.on_j.z, -r.x, -r.y, -r.z);
+    const auto* m = reinterpret_cast<const Vec3*>(field_->moments()[0]);
+    const auto dipole = magnetic::dipole_dipole(m[i], m[j], r),
+               contact = repulsion_between(i, j, r);
+    const Vec3 on_j = dipole.on_j + contact.on_j;
+    ev_tally_xyz(i, j, atom->nlocal, force->newton_pair, 0.0, dipole.energy + contact.energy,
+                 -on_j.x, -on_j.y, -on_j.z, -r.x, -r.y, -r.z);
   });
+}
+
+long PairHemoDipole::pairs() {
+  long mine = 0, all = 0;
+  for_each_pair(atom->x, [&](int, int, const Vec3&) { ++mine; });
+  MPI_Allreduce(&mine, &all, 1, MPI_LONG, MPI_SUM, world);
+  return all;
 }
 
 double PairHemoDipole::max_stiffness() {

@@ -36,6 +36,8 @@ public:
   /// Add the forces of every pair of the present list, at positions x, to f of owned and ghost
   /// atoms; the caller sums ghosts.
   void accumulate(double** x, double** f);
+  /// Pairs within the cut-off, over all ranks. Collective.
+  long pairs();
   /// Largest contact stiffness at the present moments, over all ranks. Collective.
   double max_stiffness();
 
@@ -46,13 +48,18 @@ private:
     Repulsion repulsion = Repulsion::soft;
     double kappa = 30;              // soft
     double epsilon = 0, sigma = 0;  // paper
+    double reach2 = 0;              // square of the distance from which on there is no repulsion
   };
   void allocate();
   Pairing& between(int i, int j) {
     return pairing_[static_cast<std::size_t>(i * (types_ + 1) + j)];
   }
-  hemomag::magnetic::PairForce force_between(int i, int j, const hemomag::Vec3& r);
-  template <class Visit> void for_each_pair(double** x, Visit visit);
+  const Pairing& between(int i, int j) const {
+    return pairing_[static_cast<std::size_t>(i * (types_ + 1) + j)];
+  }
+  hemomag::magnetic::PairForce repulsion_between(int i, int j, const hemomag::Vec3& r) const;
+  double longest_reach2() const;
+  template <class Visit> void for_each_pair(double** x, Visit visit) const;
 
   int types_ = 0;
   double cutoff_ = 0;

@@ -9,7 +9,9 @@ class LAMMPS;
 
 namespace hemomag::lammps {
 
-/// Positions of all atoms by tag - 1, unwrapped, on every rank. Collective.
+/// Of all atoms by tag - 1, on every rank. Collective. Positions are unwrapped.
 std::vector<Vec3> positions(LAMMPS_NS::LAMMPS& lmp);
+std::vector<Vec3> velocities(LAMMPS_NS::LAMMPS& lmp);
+std::vector<Vec3> forces(LAMMPS_NS::LAMMPS& lmp);
 
 }  // namespace hemomag::lammps

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -14,14 +15,16 @@ struct PairForce {
   double energy;
 };
 
-/// Eq. 24 and its energy (1/4 pi r^3)(m_i . m_j - 3 (m_i . e)(m_j . e)), at fixed moments.
+/// Eq. 24 and its energy (1/4 pi r^3)(m_i . m_j - 3 (m_i . e)(m_j . e)), at fixed moments. Written
+/// so that exchanging i and j changes the sign of every rounded term: the third law holds to the
+/// last bit (without fused multiply-add).
 inline PairForce dipole_dipole(const Vec3& m_i, const Vec3& m_j, const Vec3& r) {
-  const double r2 = norm2(r), distance = std::sqrt(r2);
-  const Vec3 e = r / distance;
-  const double ie = dot(m_i, e), je = dot(m_j, e), ij = dot(m_i, m_j);
-  const double prefactor = 1 / (4 * std::numbers::pi * r2 * distance);
-  return {(3 * prefactor / distance) * (ie * m_j + je * m_i - (5 * ie * je - ij) * e),
-          prefactor * (ij - 3 * ie * je)};
+  const double inverse2 = 1 / norm2(r), inverse = std::sqrt(inverse2);
+  const double prefactor = inverse2 * inverse / (4 * std::numbers::pi);
+  const double ir = dot(m_i, r), jr = dot(m_j, r), ij = dot(m_i, m_j);
+  const double both = (ir * jr) * inverse2;
+  return {(3 * prefactor * inverse2) * ((ir * m_j + jr * m_i) - (5 * both - ij) * r),
+          prefactor * (ij - 3 * both)};
 }
 
 /// Pull between two moments that point along the line of centres at contact, 6 m_i m_j/(4 pi d^4):
@@ -30,6 +33,10 @@ inline double contact_pull(double m_i, double m_j, double contact_distance) {
   const double d2 = contact_distance * contact_distance;
   return 1.5 * m_i * m_j / (std::numbers::pi * d2 * d2);
 }
+
+/// Where the soft repulsion has fallen to 2e-16 of the contact pull, a rounding: from there on it
+/// need not be computed.
+inline double soft_reach(double kappa, double d) { return d * (1 + 36 / kappa); }
 
 /// Soft repulsion A exp(-kappa (r/d - 1)) with A the contact pull, so that the gap at rest does not
 /// depend on the field. Differs from eq. (26): that force is singular at contact and weakly
@@ -51,15 +58,34 @@ inline PairForce paper_repulsion(double epsilon, double sigma, double d, const V
   return {(force / distance) * r, epsilon * (q6 * q6 / 12 - q6 / 6 + 1.0 / 12)};
 }
 
-/// Largest stiffness -dF/dr of the soft repulsion near contact.
-inline double soft_stiffness(double amplitude, double kappa, double d) {
-  return amplitude * kappa / d;
+/// Load on a joint inside a long straight chain over the pull of a touching pair: every pair that
+/// spans the joint pulls, n of them at n times the distance, so that it is sum n/n^4 = zeta(3).
+inline constexpr double chain_load = 1.2020569031595942;
+
+/// Stiffness of a joint that the soft repulsion holds under the load of a long chain: kappa load/d,
+/// less the slope 4 pull/d of the dipoles, which pull the harder the nearer they are.
+inline double soft_stiffness(double pull, double kappa, double d) {
+  return (chain_load * kappa - 4) * pull / d;
 }
 
-/// Stiffness of Eq. 26 where it balances a pull `load`: F ~ epsilon sigma^12/s^13, so 13 load/s.
-inline double paper_stiffness(double load, double epsilon, double sigma) {
+/// The same of Eq. 26: F ~ epsilon sigma^12/s^13, so 13 F/s where F is the load.
+inline double paper_stiffness(double pull, double epsilon, double sigma) {
+  const double load = chain_load * pull;
   if (!(load > 0)) return 13 * epsilon / (sigma * sigma);
   return 13 * load / (sigma * std::pow(epsilon / (load * sigma), 1.0 / 13));
 }
+
+/// Sub-steps of a time step in which explicit steps of touching chains are stable. The stiffest
+/// mode has the rate 4 k dt/Gamma, and a sub-step is stable below 2 of it. In a single one a rate
+/// above 1 would make contacts swing back in every step, in time with the fluid, which answers the
+/// forces of the step before with the rest of the carriers' mobility: then there are two.
+/// @param rate  k dt/Gamma
+inline double contact_substeps(double rate) {
+  return std::max(rate > 0.25 ? 2.0 : 1.0, std::ceil(2 * rate));
+}
+
+/// Pull of an aligned pair at the distance of a cut-off, over that at contact: what the cut-off
+/// neglects of one pair at most.
+inline double neglected_pull(double d, double cutoff) { return std::pow(d / cutoff, 4); }
 
 }  // namespace hemomag::magnetic

@@ -536,6 +536,18 @@ TEST_F(BadInput, UnreadableFile) {
   EXPECT_EQ(outcome.error.rfind("absent.toml:1:1: ", 0), 0u) << outcome.error;
 }
 
+TEST_F(BadInput, Carriers) {
+  refused(changed("count = 3", "count = 3\ndensity = \"900 kg/m3\""),
+          "case.toml:11:11: carrier.density:", "is below the fluid's");
+  refused(changed("count = 3", "count = 3\ndensity = \"5 kg\""),
+          "case.toml:11:11: carrier.density:", "is not a density");
+  refused(changed("[magnetic]", "[contact]\nrepulsion_kappa = 4\n[magnetic]"),
+          "case.toml:13:19: contact.repulsion_kappa:", "out of range");
+  refused(
+      changed("[magnetic]", "[contact]\nrepulsion = \"paper\"\nrepulsion_kappa = 60\n[magnetic]"),
+      "case.toml:14:19: contact.repulsion_kappa:", "leave it out");
+}
+
 TEST_F(BadInput, WhatCannotWorkIsRefusedByTheCard) {
   const std::string worm = "kind = \"worm\"\nbeads = 8\ncount = 3";
   refused(changed("radius = \"125 nm\"", "radius = \"800 nm\""),

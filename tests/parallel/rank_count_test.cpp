@@ -15,12 +15,10 @@ namespace {
 
 using namespace hemomag;
 
-TEST(RankCount, ResultsAgreeAfter200Steps) {
-  int rank = 0, ranks = 0;
+/// The case on 1, 2 and 4 of the ranks; all three on rank 0 of the world.
+std::vector<test::State> on_1_2_4_ranks(const case_::Case& c) {
+  int rank = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
-  ASSERT_GE(ranks, 4);
-  const auto c = test::small_case();
   const auto system = case_::place(c);
   std::vector<test::State> states;
   for (const int n : {1, 2, 4}) {
@@ -32,6 +30,43 @@ TEST(RankCount, ResultsAgreeAfter200Steps) {
     }
     MPI_Barrier(MPI_COMM_WORLD);
   }
+  return states;
+}
+
+/// Carriers with inertia that have met and stick together, in sub-steps.
+TEST(RankCount, CarriersWithInertiaAgreeAfter400Steps) {
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  auto c = test::small_case();
+  c.cells.clear();
+  c.carriers[0].count = 600;
+  c.carriers[0].density = 5200;
+  c.magnetic.sources[0].B0 = 0.15;
+  c.run.steps = 400;
+  const auto states = on_1_2_4_ranks(c);
+  if (rank != 0) return;
+  ASSERT_EQ(states.size(), 3u);
+  int touching = 0;
+  for (std::size_t i = 0; i < 600; ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      touching += norm(states[0].x[i] - states[0].x[j]) < 1.02 * 0.5;
+  EXPECT_GT(touching, 50) << "of 250 nm, 0.5 nodes";
+  for (std::size_t s = 1; s < 3; ++s) {
+    double worst = 0;
+    for (std::size_t k = 0; k < states[0].x.size(); ++k)
+      worst = std::max(worst, norm(states[s].x[k] - states[0].x[k]));
+    std::printf("carriers, %d ranks against 1: positions differ by up to %.2e of the box\n",
+                s == 1 ? 2 : 4, worst / 28);
+    EXPECT_LT(worst / 28, 1e-12);
+  }
+}
+
+TEST(RankCount, ResultsAgreeAfter200Steps) {
+  int rank = 0, ranks = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  ASSERT_GE(ranks, 4);
+  const auto states = on_1_2_4_ranks(test::small_case());
   if (rank != 0) return;
   ASSERT_EQ(states.size(), 3u);
   ASSERT_EQ(states[0].x.size(), 2u * 642 + 12);

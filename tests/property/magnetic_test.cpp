@@ -3,11 +3,13 @@
 
 #include <numbers>
 
+#include "base/simd.hpp"
 #include "contact/lennard_jones.hpp"
 #include "contact/morse.hpp"
 #include "contact/wall.hpp"
 #include "lattice/vessel.hpp"
 #include "magnetic/dipole.hpp"
+#include "magnetic/dipole_rows.hpp"
 #include "magnetic/field.hpp"
 #include "magnetic/moment.hpp"
 #include "support/gradient.hpp"
@@ -31,10 +33,98 @@ TEST(Dipoles, ForceIsMinusTheEnergyGradientAtFixedMoments) {
                      test::gradient_error(r, std::vector<Vec3>{pair.on_j}, 0.5, [&](const auto& y) {
                        return magnetic::dipole_dipole(mi, mj, y[0]).energy;
                      }));
-    const Vec3 back = magnetic::dipole_dipole(mj, mi, -r[0]).on_j;
-    EXPECT_LT(norm(back + pair.on_j), 1e-14 * (1 + norm(back))) << "third law";
+    EXPECT_EQ(magnetic::dipole_dipole(mj, mi, -r[0]).on_j, -pair.on_j)
+        << "the third law holds to the last bit";
   }
-  EXPECT_LT(worst, gradient_tolerance);
+  constexpr double dipole_tolerance = 1e-9;  // relative; five-point differences reach 1e-11
+  EXPECT_LT(worst, dipole_tolerance);
+}
+
+class DipoleRows : public testing::TestWithParam<SimdLevel> {};
+
+TEST_P(DipoleRows, EqualTheLawOfOnePair) {
+  // Reference against fast: one carrier and up to a full row of neighbours within and beyond reach.
+  if (GetParam() > simd_level()) GTEST_SKIP() << "not on this processor";
+  Random random(21);
+  constexpr double cutoff = 3, contact = 1.1, round_off = 64 * 2.3e-16;
+  constexpr int mask = 0x1fffffff, flag = 0x20000000;  // neighbours may carry marks in high bits
+  for (const int count : {0, 1, 7, 100, static_cast<int>(magnetic::most_in_row)}) {
+    const auto n = static_cast<std::size_t>(count) + 1;
+    std::vector<Vec3> x, m, f(n), expected(n);
+    std::vector<int> neighbours, touching(magnetic::most_in_row), near;
+    for (std::size_t k = 0; k < n; ++k) {
+      Vec3 e = random.in_cube(1);
+      e *= 1 / norm(e);
+      x.push_back(k == 0 ? Vec3{0.3, 0.2, 0.1} : x[0] + random.uniform(0.9, 4) * e);
+      m.push_back(random.in_cube(1));
+      if (k == 0) continue;
+      const int j = static_cast<int>(k);
+      neighbours.push_back(k % 3 == 0 ? j | flag : j);
+      const Vec3 r = x[k] - x[0];
+      if (norm(r) < contact) near.push_back(j);
+      if (norm(r) >= cutoff) continue;
+      const Vec3 F = magnetic::dipole_dipole(m[0], m[k], r).on_j;
+      expected[k] += F;
+      expected[0] -= F;
+    }
+    const magnetic::DipoleRow row{&x[0].x,           &m[0].x, &f[0].x,         0,
+                                  neighbours.data(), mask,    count,           cutoff * cutoff,
+                                  contact * contact, touching.data()};
+    const auto touch = GetParam() == SimdLevel::avx512 ? magnetic::avx512::dipole_row(row)
+                       : GetParam() == SimdLevel::avx2 ? magnetic::avx2::dipole_row(row)
+                                                       : magnetic::sse2::dipole_row(row);
+    touching.resize(static_cast<std::size_t>(touch));
+    EXPECT_EQ(touching, near);
+    for (std::size_t k = 0; k < n; ++k)
+      EXPECT_LT(norm(f[k] - expected[k]), round_off * (1 + static_cast<double>(k == 0 ? n : 1)))
+          << "neighbour " << k << " of " << count;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, DipoleRows,
+                         testing::Values(SimdLevel::sse2, SimdLevel::avx2, SimdLevel::avx512),
+                         [](const auto& level) { return std::string(name(level.param)); });
+
+TEST(Dipoles, AJointOfALongChainCarriesZetaOfThree) {
+  // Force between the halves of a straight chain, in pulls of a touching pair.
+  constexpr int half = 200;
+  double sum = 0;
+  for (int i = 1; i <= half; ++i)
+    for (int j = 1; j <= half; ++j)
+      sum -= magnetic::dipole_dipole({0, 0, 1}, {0, 0, 1}, {0, 0, i + j - 1.0}).on_j.z;
+  constexpr double rest = 1e-4;  // pairs farther apart: 3/(2 half^2)
+  EXPECT_NEAR(sum / magnetic::contact_pull(1, 1, 1), magnetic::chain_load, rest);
+}
+
+TEST(Dipoles, StiffnessIsTheSlopeOfTheShortestWaveOfAChain) {
+  // Every other carrier of a long chain at rest is moved; the middle one's force over twice the
+  // move is a quarter of the mode's stiffness 4 k.
+  constexpr int n = 401;
+  constexpr double d = 1, kappa = 60, move = 1e-6;
+  const double pull = magnetic::contact_pull(1, 1, d);
+  const double spacing = d * (1 - std::log(magnetic::chain_load) / kappa);  // push = load
+  const auto force = [&](double s) {
+    const auto at = [&](int k) { return k * spacing + (k % 2 == 0 ? s : -s); };
+    double sum = 0;
+    for (int k = -n; k <= n; ++k) {
+      if (k == 0) continue;
+      const Vec3 r{0, 0, at(0) - at(k)};
+      sum += magnetic::dipole_dipole({0, 0, 1}, {0, 0, 1}, r).on_j.z;
+      if (std::abs(k) == 1) sum += magnetic::soft_repulsion(pull, kappa, d, r).on_j.z;
+    }
+    return sum;
+  };
+  const double mode = -(force(move) - force(-move)) / (2 * move);
+  constexpr double tolerance = 0.02;  // the chain is 0.3 % shorter than touching carriers
+  EXPECT_NEAR(mode / (4 * magnetic::soft_stiffness(pull, kappa, d)), 1, tolerance);
+}
+
+TEST(Dipoles, SubStepsFollowTheStiffness) {
+  EXPECT_EQ(magnetic::contact_substeps(0), 1);
+  EXPECT_EQ(magnetic::contact_substeps(0.25), 1);
+  EXPECT_EQ(magnetic::contact_substeps(0.26), 2) << "faster than a step: never one alone";
+  EXPECT_EQ(magnetic::contact_substeps(1), 2);
+  EXPECT_EQ(magnetic::contact_substeps(1.01), 3);
 }
 
 TEST(Dipoles, RadialPartChangesSignAtTheMagicAngle) {

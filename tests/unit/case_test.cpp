@@ -148,6 +148,35 @@ TEST(Card, JudgesTheFieldAgainstTheMethod) {
   EXPECT_EQ(line(strong, "drift").verdict, Verdict::refused);
 }
 
+TEST(Card, SaysWhatTheDipolesCutOffNeglectsAndWhatKappaCosts) {
+  Case c = coarse();
+  c.carriers.emplace_back();
+  c.carriers[0].radius = 125e-9;
+  c.magnetic.sources.emplace_back();
+  c.magnetic.sources[0].B0 = 0.1;
+  EXPECT_EQ(line(make_card(c, {}), "dipole cut-off").value,
+            "1.5 um, neglects 0.00077 of the contact pull");
+  c.contact.repulsion_kappa = 60;
+  EXPECT_EQ(line(make_card(c, {}), "contact sub-steps").value, "5") << "2.25 times kappa 30's 1.9";
+}
+
+TEST(CarrierInertia, TheFluidTheyDisplaceMovesAlongUnlessCouplingIsOneWay) {
+  Case c = coarse();
+  c.carriers.emplace_back();
+  Carrier& carrier = c.carriers[0];
+  carrier.radius = 125e-9;
+  EXPECT_EQ(inertial_mass(c, carrier), 0);
+  carrier.density = 5200;
+  const double scaled =
+      lattice_units(c).density / 1000 * 4.0 / 3 * std::numbers::pi * std::pow(125e-9, 3);
+  EXPECT_NEAR(inertial_mass(c, carrier) / scaled, 4200, 1e-9 * 4200);
+  EXPECT_NE(lammps_script(c, {}).find(" inertia 1 0.2748"), std::string::npos)
+      << "4.2 times 4/3 pi 0.25^3";
+  EXPECT_EQ(line(make_card(c, {}), "carrier inertia").verdict, Verdict::fine);
+  carrier.feedback = false;
+  EXPECT_NEAR(inertial_mass(c, carrier) / scaled, 5200, 1e-9 * 5200);
+}
+
 TEST(Card, NamesTheLargestStableWormBond) {
   Case c = coarse();
   c.carriers.emplace_back();

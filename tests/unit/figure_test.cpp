@@ -50,4 +50,22 @@ TEST(Figure, ABodyShowsTheFacesTurnedToTheViewer) {
   EXPECT_EQ(count(io::draw_bodies({body}, 90, 1, "1 um"), "fill=\"#130504\""), 2);
 }
 
+TEST(Figure, AFlowHasItsSpheresAndArrowsToScale) {
+  io::FlowPicture p;
+  p.label = "flow";
+  p.width = p.height = 10;
+  p.radius = 1;
+  p.spheres = {{2, 5}, {8, 5}};
+  p.flow = {{5, 5, 1, 0}, {5, 2, 0, -4}};
+  p.fastest = 2;
+  p.arrow = 3;
+  const std::string svg = io::draw_flows({p});
+  // 34 pixels a unit from the corner (14, 34), y upwards.
+  EXPECT_EQ(count(svg, "cx=\"82.00\" cy=\"204.00\" r=\"34.00\""), 1);
+  EXPECT_EQ(count(svg, "cx=\"286.00\" cy=\"204.00\""), 1);
+  EXPECT_EQ(count(svg, "M184.00 204.00L235.00 204.00"), 1) << "half the fastest: 1.5 units long";
+  EXPECT_EQ(count(svg, "M184.00 306.00L184.00 510.00"), 1);
+  EXPECT_EQ(count(svg, "#e63c1e"), 1) << "faster than the fastest is as red";
+}
+
 }  // namespace
