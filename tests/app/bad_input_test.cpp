@@ -161,8 +161,8 @@ TEST_F(BadInput, FeaturesOfLaterVersions) {
           "case.toml:13:9: magnetic.field:", "not available");
   refused(changed("[run]", "[analysis]\nlayer = \"measured\"\n[run]"),
           "case.toml:15:9: analysis.layer:", "not available");
-  refused(changed("[[carrier]]", "[[cell]]\nplacement = \"compress\"\n[[carrier]]"),
-          "case.toml:10:13: cell.placement:", "not available");
+  refused(changed("[[carrier]]", "[[cell]]\nplacement = \"dense\"\n[[carrier]]"),
+          "case.toml:10:13: cell.placement:", "\"grow\"");
 }
 
 /// `good` with other lines in place of its shear rate, and no default gradient.
