@@ -53,13 +53,14 @@ struct Validation {
 const std::vector<Validation>& validations();
 
 /// Those of the fluid (validate_fluid.cpp), of curved walls (validate_curved.cpp), of the membrane
-/// without a fluid (validate_moduli.cpp, validate_stretch.cpp) and of one cell in the fluid
-/// (validate_cell.cpp).
+/// without a fluid (validate_moduli.cpp, validate_stretch.cpp), of one cell in the fluid
+/// (validate_cell.cpp) and of dense starting states (validate_packing.cpp).
 std::vector<Validation> fluid_validations();
 std::vector<Validation> curved_validations();
 std::vector<Validation> moduli_validations();
 std::vector<Validation> stretch_validations();
 std::vector<Validation> cell_validations();
+std::vector<Validation> packing_validations();
 
 /// Run the named ones (all if none) and print them, as a table or as one JSON object a line. Rank 0
 /// works alone.

@@ -22,6 +22,7 @@ namespace {
 constexpr double um = 1e-6, pN = 1e-12;
 constexpr double wall_gap = 0.3;            // of vertices from walls, as with every placement
 constexpr double loose_hematocrit = 0.15;   // that random placement reaches at once
+constexpr double largest_hematocrit = 0.6;  // that the case file accepts
 constexpr double least_stretch = 2;         // the paper's "about two times" the channel
 constexpr double start_scale = 0.5;         // of growing cells
 constexpr double plate_move = 0.01;         // um a step
@@ -317,6 +318,15 @@ PackedCells pack_cells(const Case& c, const std::vector<CellModel>& models) {
   const double height = c.channel.size[2] / um, hematocrit = hematocrit_of(c, models, counts);
   const bool by_plates = c.cells[0].placement == Placement::compress;
 
+  const std::string cells =
+      std::to_string(std::accumulate(counts.begin(), counts.end(), 0)) + " cells";
+  if (hematocrit > largest_hematocrit) {
+    char text[96];
+    std::snprintf(text, sizeof text, " make a hematocrit of %.3g; accepted: at most %g", hematocrit,
+                  largest_hematocrit);
+    throw Error(placement_key(c) + ": " + cells + text);
+  }
+
   PackedCells packed;
   double stretch = 1;
   packed.first = by_plates ? scatter_in_stretched(c, meshes, counts, hematocrit, stretch)
@@ -351,9 +361,9 @@ PackedCells pack_cells(const Case& c, const std::vector<CellModel>& models) {
                   " of their area and " + percent(packed.report.volume_change) +
                   " of their volume");
   } catch (const Error& e) {
-    throw Error(placement_key(c) + ": packing " + std::to_string(std::accumulate(
-                    counts.begin(), counts.end(), 0)) + " cells, a hematocrit of " +
-                percent(hematocrit) + ", failed: " + e.what() + "; accepted: fewer cells, or another seed");
+    throw Error(placement_key(c) + ": packing " + cells + ", a hematocrit of " +
+                percent(hematocrit) + ", failed: " + e.what() +
+                "; accepted: fewer cells, or another seed");
   }
   packed.report.method = by_plates ? "compress" : "grow";
   packed.report.steps = made.steps;

@@ -226,7 +226,9 @@ void place_at_random(System& system, Packing& packing, const Case& c, std::size_
     if (tries >= most_tries)
       throw Error(cell_key(c, model) + ": random placement put " + std::to_string(placed) + " of " +
                   std::to_string(count) + " cells after " + std::to_string(tries) +
-                  " tries; accepted: fewer cells, or a packed state (placement \"compress\")");
+                  " tries; accepted: fewer cells, or " +
+                  (is_packed(c) ? "a larger channel"
+                                : "a packed state (placement \"compress\" or \"grow\")"));
     const Pose pose = random_pose(random, packing.box());
     if (!packing.fits(system.models[model], pose)) continue;
     system.cells.push_back({model, packing.add(system.models[model], pose)});
@@ -249,7 +251,7 @@ void place_on_grid(System& system, Packing& packing, const Case& c, std::size_t 
   const auto no_room = [&](long room) {
     return Error(cell_key(c, model) + ": a grid has room for " + std::to_string(room) + " of " +
                  std::to_string(count) +
-                 " cells; accepted: fewer cells, or a packed state (placement \"compress\")");
+                 " cells; accepted: fewer cells, or a packed state (placement \"compress\" or \"grow\")");
   };
   const long places = static_cast<long>(nx) * ny * nz;
   if (places < count) throw no_room(places);
