@@ -85,8 +85,7 @@ int parse_and_run(int argc, char** argv) {
   run->add_flag("--resume", resume, "go on from the last checkpoint (not in this version)");
   app.add_subcommand("lmp", "LAMMPS with the hemo styles: hemomag lmp -in FILE")->prefix_command();
   const std::vector<std::pair<const char*, const char*>> later = {
-      {"sweep", "one run per value of a key"},
-      {"report", "one page of a finished run"}};
+      {"sweep", "one run per value of a key"}, {"report", "one page of a finished run"}};
   std::vector<std::string> names;
   bool json = false;
   auto* validation =

@@ -293,7 +293,8 @@ void read_placement(Cell& cell, const Table& t, const std::string& case_path) {
     cell.placement = Placement::file;
     cell.packed = (std::filesystem::path(case_path).parent_path() / *name).string();
     if (!std::filesystem::is_regular_file(cell.packed) || !std::ifstream(cell.packed))
-      t.fail("placement", cell.packed + ": cannot be read; accepted: a state that hemomag pack wrote");
+      t.fail("placement",
+             cell.packed + ": cannot be read; accepted: a state that hemomag pack wrote");
     return;
   }
   const std::string how = t.word("placement");

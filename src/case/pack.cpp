@@ -69,11 +69,11 @@ int pack_case(const Case& c, const RunOptions& options, MPI_Comm comm) {
 std::string packing_text(const PackingReport& r) {
   char text[512];
   std::snprintf(text, sizeof text,
-                "%zu cells (%s), hematocrit %.4f, no crossing triangles\n"
+                "%zu cells (%s), hematocrit %.4f, %ld crossings of triangles\n"
                 "smallest gap %.3g um, from walls %.3g um; area within %.2g %%, volume within "
                 "%.2g %%\n",
-                r.cells, r.method.c_str(), r.hematocrit, r.smallest_gap * 1e6, r.wall_gap * 1e6,
-                r.area_change * 100, r.volume_change * 100);
+                r.cells, r.method.c_str(), r.hematocrit, r.crossings, r.smallest_gap * 1e6,
+                r.wall_gap * 1e6, r.area_change * 100, r.volume_change * 100);
   std::string all = text;
   if (r.steps > 0) {
     std::snprintf(text, sizeof text, "packed in %.1f s, %ld steps\n", r.seconds, r.steps);
@@ -86,7 +86,7 @@ std::string packing_json(const PackingReport& r) {
   return nlohmann::ordered_json{{"method", r.method},
                                 {"cells", r.cells},
                                 {"hematocrit", r.hematocrit},
-                                {"crossings", 0},
+                                {"crossings", r.crossings},
                                 {"smallest_gap_um", in_um(r.smallest_gap)},
                                 {"wall_gap_um", in_um(r.wall_gap)},
                                 {"area_change_max", r.area_change},

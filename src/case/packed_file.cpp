@@ -114,9 +114,10 @@ private:
         const double own = 0.5 * norm(cross(x(t[1]) - x(t[0]), x(t[2]) - x(t[0])));
         if (std::fabs(file_.number(words.back()) * dx_ * dx_ / own - 1) < same_area) continue;
         char text[160];
-        std::snprintf(text, sizeof text,
-                      "its mesh is not the case's (it was packed with seed %.0f, the case has %.0f)",
-                      seed_, static_cast<double>(c_.seed));
+        std::snprintf(
+            text, sizeof text,
+            "its mesh is not the case's (it was packed with seed %.0f, the case has %.0f)", seed_,
+            static_cast<double>(c_.seed));
         file_.fail(text);
       }
   }
@@ -190,8 +191,9 @@ std::vector<System::PlacedCell> read_packed(const Case& c, const std::vector<Cel
     return PackedFile(c, models).read();
   } catch (const Error& e) {
     throw Error(position(c, entry_path("cell", 0, c.cells.size()) + ".placement") + ": " +
-                e.what() + "; accepted: a state that hemomag pack wrote for this box, these cells "
-                           "and this seed");
+                e.what() +
+                "; accepted: a state that hemomag pack wrote for this box, these cells "
+                "and this seed");
   }
 }
 

@@ -27,11 +27,11 @@ constexpr double least_stretch = 2;         // the paper's "about two times" the
 constexpr double start_scale = 0.5;         // of growing cells
 constexpr double plate_move = 0.01;         // um a step
 constexpr int growth_steps = 1000;
-constexpr double damping = 0.5;             // per unit of the crowd's time
-constexpr double force_at_rest = 0.02;      // pN on a vertex: kBT over 0.2 um
-constexpr int relaxation_steps = 4000;      // at most
-constexpr double largest_change = 0.01;     // of area and volume
-constexpr double gap_range = 1;             // um, up to which gaps are measured
+constexpr double damping = 0.5;          // per unit of the crowd's time
+constexpr double force_at_rest = 0.02;   // pN on a vertex: kBT over 0.2 um
+constexpr int relaxation_steps = 4000;   // at most
+constexpr double largest_change = 0.01;  // of area and volume
+constexpr double gap_range = 1;          // um, up to which gaps are measured
 // The pair repulsion of the flow run is three times its depth here.
 constexpr double vertex_gap_over_sigma = 0.93;
 
@@ -286,6 +286,7 @@ PackingReport check_cells(const Case& c, const std::vector<CellModel>& models, c
     throw Error(std::to_string(gaps.crossings) + " pairs of triangles cross, first of cells " +
                 std::to_string(gaps.first_crossing[0] + 1) + " and " +
                 std::to_string(gaps.first_crossing[1] + 1));
+  r.crossings = gaps.crossings;
   r.smallest_gap = gaps.smallest;
   r.wall_gap = least_wall_gap(c, models, cells);
   if (r.wall_gap <= 0) throw Error("a cell passes through a wall");
@@ -346,8 +347,9 @@ PackedCells pack_cells(const Case& c, const std::vector<CellModel>& models) {
     packed.cells = packer.cells();
     made.steps = packer.steps();
     made.largest_force = packer.largest_force();
-    if (std::any_of(c.cells.begin(), c.cells.end(),
-                    [&](const Cell& cell) { return !cell.surface && cell.vertices > packing_vertices; })) {
+    if (std::any_of(c.cells.begin(), c.cells.end(), [&](const Cell& cell) {
+          return !cell.surface && cell.vertices > packing_vertices;
+        })) {
       Packer fine(c, models, models, height);
       fine.add(carry(packed.cells, meshes, models));
       fine.relax();

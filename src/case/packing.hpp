@@ -29,6 +29,6 @@ PackedCells pack_cells(const Case& c, const std::vector<CellModel>& models);
 /// @throws Error with the place in the case file when two cross, one lies within another, or one
 /// passes through a wall
 PackingReport check_packed(const Case& c, const std::vector<CellModel>& models,
-                          const std::vector<System::PlacedCell>& cells);
+                           const std::vector<System::PlacedCell>& cells);
 
 }  // namespace hemomag::case_

@@ -249,9 +249,10 @@ void place_on_grid(System& system, Packing& packing, const Case& c, std::size_t 
   const int nx = static_cast<int>(box.size[0] / side), ny = static_cast<int>(box.size[1] / side),
             nz = static_cast<int>((box.size[2] - 2 * margin) / height);
   const auto no_room = [&](long room) {
-    return Error(cell_key(c, model) + ": a grid has room for " + std::to_string(room) + " of " +
-                 std::to_string(count) +
-                 " cells; accepted: fewer cells, or a packed state (placement \"compress\" or \"grow\")");
+    return Error(
+        cell_key(c, model) + ": a grid has room for " + std::to_string(room) + " of " +
+        std::to_string(count) +
+        " cells; accepted: fewer cells, or a packed state (placement \"compress\" or \"grow\")");
   };
   const long places = static_cast<long>(nx) * ny * nz;
   if (places < count) throw no_room(places);

@@ -12,9 +12,10 @@ namespace hemomag::case_ {
 
 /// What a packed state is like (case/packing.hpp).
 struct PackingReport {
-  std::string method;       ///< compress, grow, or the file it was read from
+  std::string method;  ///< compress, grow, or the file it was read from
   std::size_t cells = 0;
   double hematocrit = 0;    ///< the cells' rest volume over the fluid's
+  long crossings = 0;       ///< pairs of triangles that cross; none in a state that is accepted
   double smallest_gap = 0;  ///< between the surfaces of two cells [m]; infinite above 1 um
   double wall_gap = 0;      ///< of a vertex from a wall [m]; infinite without walls
   double area_change = 0;   ///< largest |A/A0 - 1| of a cell

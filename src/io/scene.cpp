@@ -69,7 +69,8 @@ public:
   }
 
   void line(const Vec3& a, const Vec3& b, const Colour& colour) {
-    const int steps = 1 + static_cast<int>(2 * std::max(std::fabs(b.x - a.x), std::fabs(b.y - a.y)));
+    const int steps =
+        1 + static_cast<int>(2 * std::max(std::fabs(b.x - a.x), std::fabs(b.y - a.y)));
     for (int k = 0; k <= steps; ++k) {
       const Vec3 p = a + (1.0 * k / steps) * (b - a);
       for (int di = 0; di < samples; ++di)
@@ -101,7 +102,8 @@ public:
     packed.resize(size);
     return "\x89PNG\r\n\x1a\n" +
            chunk("IHDR", number(static_cast<std::uint32_t>(w)) +
-                             number(static_cast<std::uint32_t>(h)) + std::string("\x08\x02\0\0\0", 5)) +
+                             number(static_cast<std::uint32_t>(h)) +
+                             std::string("\x08\x02\0\0\0", 5)) +
            chunk("IDAT", packed) + chunk("IEND", "");
   }
 
@@ -221,8 +223,7 @@ std::string draw_scenes(const std::vector<Scene>& scenes, const View& view) {
                   "<image x=\"%.1f\" y=\"%.1f\" width=\"%d\" height=\"%d\" "
                   "href=\"data:image/png;base64,",
                   x + w / 2, scenes[k].label.c_str(), x, head + (tallest - h) / 2, width, height);
-    out += line +
-           base64(render(scenes[k], camera, e, view.scale, width, height)) + "\"/>\n";
+    out += line + base64(render(scenes[k], camera, e, view.scale, width, height)) + "\"/>\n";
     x += w + 2 * margin;
   }
   return out + "</svg>\n";

@@ -78,9 +78,8 @@ private:
 
   int index(const Vec3& x, std::size_t d) const {
     const double share = x[d] / box_.size[d];
-    const int k = static_cast<int>(std::floor((box_.periodic[d] ? share - std::floor(share)
-                                                                : std::clamp(share, 0.0, 1.0)) *
-                                              n_[d]));
+    const int k = static_cast<int>(std::floor(
+        (box_.periodic[d] ? share - std::floor(share) : std::clamp(share, 0.0, 1.0)) * n_[d]));
     return std::min(k, n_[d] - 1);
   }
   std::size_t number(int i, int j, int k) const {

@@ -92,9 +92,7 @@ std::array<int, 3> sides(const GridTriangle& plane, const GridTriangle& of) {
           side(plane[0], plane[1], plane[2], of[2])};
 }
 
-bool all_beyond(const std::array<int, 3>& s) {
-  return s[0] != 0 && s[0] == s[1] && s[1] == s[2];
-}
+bool all_beyond(const std::array<int, 3>& s) { return s[0] != 0 && s[0] == s[1] && s[1] == s[2]; }
 
 bool zero(const std::array<int, 3>& s) { return s[0] == 0 && s[1] == 0 && s[2] == 0; }
 

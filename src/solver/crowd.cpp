@@ -184,10 +184,10 @@ void Crowd::membrane_forces() {
     x = scaled_;
   }
   if (const auto edge = edges_.add_forces(x, f_, level); edge >= 0)
-    throw Error("packing drew an edge of cell " +
-                std::to_string(
-                    surfaces_.cell[static_cast<std::size_t>(edges_.vertex(0, edge))] + 1) +
-                " out to its largest length");
+    throw Error(
+        "packing drew an edge of cell " +
+        std::to_string(surfaces_.cell[static_cast<std::size_t>(edges_.vertex(0, edge))] + 1) +
+        " out to its largest length");
   for (std::size_t c = 0; c < members_.size(); ++c) {
     const std::size_t m = members_[c].model;
     const auto g = triangles_.geometry(c, x, level);
@@ -226,8 +226,7 @@ void Crowd::step(double damping, std::span<const Vec3> drift) {
   compute_forces();
   const double keep = 1 / (1 + damping * time_step_);
   for (std::size_t v = 0; v < x_.size(); ++v) {
-    const Vec3 with =
-        drift.empty() ? Vec3{} : drift[static_cast<std::size_t>(surfaces_.cell[v])];
+    const Vec3 with = drift.empty() ? Vec3{} : drift[static_cast<std::size_t>(surfaces_.cell[v])];
     v_[v] = with + keep * (v_[v] + time_step_ * f_[v] - with);
     const double move = time_step_ * norm(v_[v]);
     if (move > largest_move) v_[v] *= largest_move / move;
@@ -281,8 +280,7 @@ double Crowd::largest_change(const std::function<double(std::size_t)>& change) c
 
 double Crowd::area_change() const {
   return largest_change([&](std::size_t c) {
-    return triangles_.geometry(c, x_, level).area /
-               (area0_[members_[c].model] * scale_ * scale_) -
+    return triangles_.geometry(c, x_, level).area / (area0_[members_[c].model] * scale_ * scale_) -
            1;
   });
 }

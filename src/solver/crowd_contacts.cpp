@@ -29,8 +29,8 @@ void CrowdContacts::list_triangles(const CrowdSurfaces& surfaces, std::span<cons
   for (const auto& t : surfaces.triangles) {
     const auto c = corners(x, t);
     middle.push_back((1.0 / 3) * (c[0] + c[1] + c[2]));
-    radius.push_back(std::sqrt(std::max({norm2(c[0] - middle.back()), norm2(c[1] - middle.back()),
-                                         norm2(c[2] - middle.back())})));
+    radius.push_back(std::sqrt(std::max(
+        {norm2(c[0] - middle.back()), norm2(c[1] - middle.back()), norm2(c[2] - middle.back())})));
     widest = std::max(widest, radius.back());
   }
   const lattice::NearPoints near(middle, box_, widest + reach);

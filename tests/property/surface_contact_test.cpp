@@ -100,12 +100,12 @@ TEST(SurfaceRepulsion, ForcesAreMinusTheGradientInEveryRegion) {
         ASSERT_LT(at.distance, law.range);
         const auto f = contact::forces(at, contact::force(law, at.distance));
         const std::vector<Vec3> F{f.point, f.corner[0], f.corner[1], f.corner[2]};
-        EXPECT_LT(test::gradient_error(x, F, 0.02,
-                                       [&](const std::vector<Vec3>& y) {
-                                         return contact::energy(
-                                             law, contact::point_triangle(y[0], {y[1], y[2], y[3]})
-                                                      .distance);
-                                       }),
+        EXPECT_LT(test::gradient_error(
+                      x, F, 0.02,
+                      [&](const std::vector<Vec3>& y) {
+                        return contact::energy(
+                            law, contact::point_triangle(y[0], {y[1], y[2], y[3]}).distance);
+                      }),
                   1e-7)
             << c << " " << height << " " << region;
         Vec3 sum, torque;

@@ -46,6 +46,7 @@ void expect_sound(const case_::System& s, std::size_t cells) {
   ASSERT_EQ(s.cells.size(), cells);
   ASSERT_TRUE(s.packing);
   EXPECT_EQ(s.packing->cells, cells);
+  EXPECT_EQ(s.packing->crossings, 0);
   EXPECT_GT(s.packing->smallest_gap, 0.1e-6) << "half the range of the repulsion";
   EXPECT_LT(s.packing->area_change, 0.01);
   EXPECT_LT(s.packing->volume_change, 0.01);
@@ -74,17 +75,17 @@ TEST(Packing, TheSameSeedGivesTheSameBytesAndAnotherDoesNot) {
 
 TEST(Packing, GrowthFillsPlatesAndPeriodicBoxes) {
   expect_sound(case_::place(small({"cell.hematocrit=0.30", "cell.placement=grow"})), 4);
-  const auto s = case_::place(small({"cell.hematocrit=0.35", "cell.placement=grow", "seed=2",
-                                     "channel.boundary=periodic"}));
+  const auto s = case_::place(small(
+      {"cell.hematocrit=0.35", "cell.placement=grow", "seed=2", "channel.boundary=periodic"}));
   expect_sound(s, 5);
   EXPECT_TRUE(std::isinf(s.packing->wall_gap));
 }
 
 TEST(Packing, GrowthFillsATubeAndCarriersAreOutside) {
-  const auto c = case_::read_case(
-      HEMOMAG_SOURCE_DIR "/examples/tube_flow.toml",
-      {"channel.size=[\"16 um\", \"12 um\", \"16 um\"]", "channel.diameter=14 um",
-       "cell.placement=grow", "cell.vertices=362", "cell.count=6", "carrier.count=50"});
+  const auto c = case_::read_case(HEMOMAG_SOURCE_DIR "/examples/tube_flow.toml",
+                                  {"channel.size=[\"16 um\", \"12 um\", \"16 um\"]",
+                                   "channel.diameter=14 um", "cell.placement=grow",
+                                   "cell.vertices=362", "cell.count=6", "carrier.count=50"});
   const auto s = case_::place(c);
   expect_sound(s, 6);
   EXPECT_GT(s.packing->wall_gap, 0.2e-6);
@@ -117,7 +118,8 @@ TEST(Packing, AFinerMeshIsCarriedFromTheCoarse) {
 }
 
 TEST(MeshMap, IsExactAtRestAndUnderARigidMotion) {
-  const auto coarse = membrane::red_cell_mesh(362, 7.82, 1), fine = membrane::red_cell_mesh(900, 7.82, 2);
+  const auto coarse = membrane::red_cell_mesh(362, 7.82, 1),
+             fine = membrane::red_cell_mesh(900, 7.82, 2);
   const membrane::MeshMap map(coarse, fine);
   const auto same = map(coarse.x);
   const double c = std::cos(0.7), s = std::sin(0.7);
@@ -221,7 +223,7 @@ TEST(PackingErrors, SayWhereAndWhatIsAccepted) {
     }
   };
   refused({"cell.count=12"}, "12 cells make a hematocrit of 0.855; accepted: at most 0.6");
-  refused({"cell.count=4", "contact.cell_sigma=6 um"}, "failed: cells are left squeezed");
+  refused({"cell.count=4", "contact.cell_sigma=6 um"}, "failed: packing drew an edge");
   refused({"channel.boundary=periodic"}, "\"grow\"");
   refused({"cell.placement={file=\"nowhere.data\"}"}, "cannot be read");
   refused({"cell.placement={files=\"nowhere.data\"}"}, "{ file = ");
