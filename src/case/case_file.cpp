@@ -308,9 +308,13 @@ void read_placement(Cell& cell, const Table& t, const std::string& case_path) {
 void check_placements(const Case& c, const std::vector<Table>& tables) {
   for (std::size_t k = 0; k < c.cells.size(); ++k) {
     const Placement how = c.cells[k].placement, first = c.cells[0].placement;
-    if (how != first && std::max(how, first) >= Placement::compress)
-      tables[k].missing("placement", "differs from another [[cell]]; accepted: the same for all "
-                                     "where one is packed (compress, grow or a file)");
+    if (how != first && std::max(how, first) >= Placement::compress) {
+      const char* problem =
+          "differs from another [[cell]]; accepted: the same for all where one is "
+          "packed (compress, grow or a file)";
+      if (tables[k].has("placement")) tables[k].fail("placement", problem);
+      tables[k].missing("placement", problem);
+    }
     if (how == Placement::compress && c.channel.boundary != Boundary::plates)
       tables[k].fail("placement", "\"compress\" drives two plates together and needs boundary = "
                                   "\"plates\"; accepted: \"grow\"");

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.hpp"
+#include "case/card.hpp"
 #include "case/packed_file.hpp"
 #include "io/files.hpp"
 
@@ -30,6 +31,11 @@ int make(const Case& c, const RunOptions& options) {
   System system;
   try {
     system.models = cell_models(c);
+    const Card card = make_card(c, system.models);
+    if (card.refused()) {
+      std::fprintf(stderr, "%s", card.refusals().c_str());
+      return bad_input;
+    }
     PackedCells packed = pack_cells(c, system.models);
     system.cells = std::move(packed.cells);
     system.packing = packed.report;

@@ -329,6 +329,11 @@ PackedCells pack_cells(const Case& c, const std::vector<CellModel>& models) {
   }
 
   PackedCells packed;
+  if (std::all_of(counts.begin(), counts.end(), [](int n) { return n == 0; })) {
+    packed.report = check_cells(c, models, {});
+    packed.report.method = by_plates ? "compress" : "grow";
+    return packed;
+  }
   double stretch = 1;
   packed.first = by_plates ? scatter_in_stretched(c, meshes, counts, hematocrit, stretch)
                            : scatter_small(c, meshes, counts);

@@ -63,7 +63,10 @@ private:
 
 SurfaceGaps surface_gaps(std::span<const SurfaceView> surfaces, const PeriodicBox& box,
                          double range) {
+  SurfaceGaps gaps;
+  gaps.smallest = std::numeric_limits<double>::infinity();
   const auto all = facets(surfaces);
+  if (all.empty()) return gaps;
   std::vector<Vec3> middle;
   double widest = 0;
   for (const Facet& f : all) middle.push_back(centroid(f.x)), widest = std::max(widest, f.radius);
@@ -71,8 +74,6 @@ SurfaceGaps surface_gaps(std::span<const SurfaceView> surfaces, const PeriodicBo
   // Triangles that can meet differ by less than four radii along an axis.
   const Grid grid(box, 4 * widest / static_cast<double>(largest_grid_difference));
 
-  SurfaceGaps gaps;
-  gaps.smallest = std::numeric_limits<double>::infinity();
   const auto compare = [&](std::size_t i, std::size_t j) {
     const Facet &a = all[i], &b = all[j];
     const auto periods = box.periods(middle[i] - middle[j]);

@@ -135,6 +135,12 @@ TEST(MeshMap, IsExactAtRestAndUnderARigidMotion) {
   }
 }
 
+TEST(Packing, OfNoCellsIsEmpty) {
+  const auto s = case_::place(small({"cell.count=0"}));
+  EXPECT_TRUE(s.cells.empty());
+  EXPECT_EQ(s.packing->hematocrit, 0);
+}
+
 class PackedFile : public testing::Test {
 protected:
   void SetUp() override {
