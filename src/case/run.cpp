@@ -15,6 +15,8 @@
 #include "case/cells_data.hpp"
 #include "case/external_field.hpp"
 #include "case/lattice_units.hpp"
+#include "case/pack.hpp"
+#include "case/packed_file.hpp"
 #include "case/script.hpp"
 #include "io/files.hpp"
 #include "lammps/compat.hpp"
@@ -61,6 +63,12 @@ int prepare(const Case& c, const RunOptions& options, Files& files) {
                     ": exists already; accepted: another directory, or --force to replace it",
                 bad_input);
   const System system = place(c);
+  if (system.packing) {
+    std::printf("%s", packing_text(*system.packing).c_str());
+    files["pack.json"] = packing_json(*system.packing);
+  }
+  if (!c.cells.empty() && c.cells[0].placement == Placement::file)
+    files[packed_copy] = whole_file(c.cells[0].packed);
   files["case.toml"] = c.text;
   files["cells.data"] = cells_data(c, system);
   files["in.lammps"] = lammps_script(c, system);

@@ -161,8 +161,6 @@ TEST_F(BadInput, Contradictions) {
 TEST_F(BadInput, FeaturesOfLaterVersions) {
   refused(changed("[run]", "[analysis]\nlayer = \"measured\"\n[run]"),
           "case.toml:15:9: analysis.layer:", "not available");
-  refused(changed("[[carrier]]", "[[cell]]\nplacement = \"compress\"\n[[carrier]]"),
-          "case.toml:10:13: cell.placement:", "not available");
 }
 
 /// `good` with other lines in place of its shear rate, and no default gradient.
@@ -568,6 +566,29 @@ TEST_F(BadInput, TooManyCells) {
   refused(changed("[[carrier]]",
                   "[[cell]]\nvertices = 642\ncount = 9\nplacement = \"grid\"\n[[carrier]]"),
           "case.toml:12:13: cell.placement:", "of 9 cells");
+}
+
+TEST_F(BadInput, Packing) {
+  const auto with = [](const std::string& cells) {
+    return changed("[[carrier]]", cells + "\n[[carrier]]");
+  };
+  const std::string at = "case.toml:12:13: cell.placement:";
+  const std::string few = "[[cell]]\nvertices = 200\ncount = 1\nplacement = ";
+  refused(with(few + "\"dense\""), at, "accepted: \"random\", \"grid\", \"compress\", \"grow\"");
+  refused(with(few + "3"), at, "a whole number is not what is meant here");
+  refused(with(few + "{ path = \"packed.data\" }"), at, "{ file = ");
+  refused(with(few + "{ file = 3 }"), at, "{ file = ");
+  refused(with(few + "{ file = \"packed.data\", seed = 1 }"), at, "{ file = ");
+  refused(with(few + "{ file = \"absent.data\" }"), at, "absent.data: cannot be read");
+  std::ofstream(directory_ / "packed.data") << "LAMMPS data file\n\n12 atoms\n";
+  refused(with(few + "{ file = \"packed.data\" }"), at,
+          "line 1: 'LAMMPS' where 'hemomag:' must be");
+  refused(with("[[cell]]\nvertices = 200\ncount = 9\nplacement = \"compress\""), at,
+          "9 cells make a hematocrit of 1.6");
+  refused(with(few + "\"compress\"\n" + few + "\"random\""),
+          "case.toml:16:13: cell.1.placement:", "differs from another [[cell]]");
+  refused(with(few + "\"compress\"\n[[cell]]\nvertices = 200\ncount = 1"),
+          "case.toml:13:1: cell.1.placement:", "differs from another [[cell]]");
 }
 
 TEST_F(BadInput, AnExistingDirectoryIsKept) {
