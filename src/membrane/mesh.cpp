@@ -129,10 +129,14 @@ void offset_to_volume(TriangleMesh& mesh, double volume) {
     offset[v] = dot(height, normal[v]) / norm2(normal[v]) * normal[v];
     gradient += dot(offset[v], normal[v]) / 6;
   }
-  // The volume is nearly linear in the factor: a pass gains 1.5 digits at 162 vertices, 2.5 at 642.
-  for (int pass = 0; pass < 10; ++pass) {
-    const double factor = (volume - enclosed_volume(mesh)) / gradient;
-    for (std::size_t v = 0; v < mesh.x.size(); ++v) mesh.x[v] += factor * offset[v];
+  // The volume is nearly linear in the factor: a pass gains 2.5 digits at 642 vertices, 1.5 at 162,
+  // less on thin rims.
+  constexpr int most_passes = 100;
+  constexpr double round_off = 1e-14;
+  for (int pass = 0; pass < most_passes; ++pass) {
+    const double missing = volume - enclosed_volume(mesh);
+    if (std::fabs(missing) <= round_off * volume) break;
+    for (std::size_t v = 0; v < mesh.x.size(); ++v) mesh.x[v] += missing / gradient * offset[v];
   }
 }
 
