@@ -92,8 +92,10 @@ public:
   virtual Vec3 momentum() = 0;
   /// Force spread on nodes of this rank in the last step (body force left out).
   virtual Vec3 node_force() const = 0;
-  /// Part of the spread force that went to walls, in the last step, on this rank.
-  Vec3 wall_share() const { return wall_share_; }
+  /// Part of the spread force that went to walls, in the last step, on this rank: to the low and
+  /// high plate (a vessel: all to the first), and to both.
+  const std::array<Vec3, 2>& wall_shares() const { return wall_shares_; }
+  Vec3 wall_share() const { return wall_shares_[0] + wall_shares_[1]; }
   /// Momentum given to the low and high plate (a vessel: all to the first) in the last step, on
   /// this rank. Exponential scheme: of a steady flow.
   const std::array<Vec3, 2>& wall_momentum() const { return wall_momentum_; }
@@ -104,7 +106,7 @@ protected:
 
   Neighbourhood at_;
   FluidParameters parameters_;
-  Vec3 wall_share_;
+  std::array<Vec3, 2> wall_shares_{};
   std::array<Vec3, 2> wall_momentum_{};
 };
 

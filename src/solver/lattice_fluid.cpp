@@ -158,7 +158,7 @@ template <class Real> void LatticeFluid<Real>::start_exponential() {
 template <class Real> void LatticeFluid<Real>::clear_forces() {
   if (!forces_clear_) std::fill_n(force_storage_.data(), force_storage_.size(), Real(0));
   forces_clear_ = true;
-  wall_share_ = {};
+  wall_shares_ = {};
 }
 
 template <class Real>
@@ -213,7 +213,7 @@ template <class Real> void LatticeFluid<Real>::reduce_forces() {
   sum_forces_home();
   if (!has_vessel()) return;
   clear_force_halo();
-  wall_share_ += ghosts_.fold_force(force_);
+  wall_shares_[0] += ghosts_.fold_force(force_);
   sum_forces_home();
 }
 
@@ -223,7 +223,8 @@ template <class Real> void LatticeFluid<Real>::sum_forces_home() {
     const Faces at = faces(axis, n_layout_.halo);
     for (const auto& plate : plates_)
       if (plate.axis == axis)
-        wall_share_ += fluid::fold_mirror_force(plate, force_, n_layout_, at.whole);
+        wall_shares_[plate.side == fluid::Side::high] +=
+            fluid::fold_mirror_force(plate, force_, n_layout_, at.whole);
     halo_.start(axis, n_layout_, {force_, at.ghost_low}, {force_, at.last}, {force_, at.ghost_high},
                 {force_, at.first}, Combine::add);
     halo_.finish();
