@@ -139,7 +139,9 @@ struct Magnetic {
 };
 
 struct Analysis {
-  double layer = 2.8e-6;  ///< [m]
+  double layer = 2.8e-6;   ///< [m]
+  bool measured = false;   ///< the layer comes from a run of the cells alone (measured_layer.hpp)
+  double layer_run = 0.2;  ///< [s], of that run
   LayerWalls walls = LayerWalls::lower;
   double average_from = 0;  ///< [s]
 };
@@ -154,6 +156,7 @@ struct Output {
   std::optional<double> fields;         ///< [s]; empty: never
   std::optional<double> series = 1e-3;  ///< [s]; empty: never
   std::optional<double> cells;          ///< [s]; empty: never
+  std::optional<double> profiles;       ///< [s]; empty: never
 };
 
 struct Case {

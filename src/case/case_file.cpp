@@ -15,6 +15,8 @@
 namespace hemomag::case_ {
 namespace {
 
+constexpr double default_profiles = 5e-3;  // s, between plates
+
 std::string read_text(const std::string& path) {
   std::ifstream file(path);
   std::stringstream text;
@@ -318,8 +320,14 @@ void read_contact(Case& c, const Table& t) {
 
 void read_analysis(Case& c, const Table& t) {
   auto& analysis = c.analysis;
-  t.refuse_later("layer");
-  analysis.layer = t.quantity("layer");
+  analysis.measured = t.is_word("layer", "measured");
+  if (analysis.measured && (c.channel.boundary != Boundary::plates || c.cells.empty()))
+    t.fail("layer", "\"measured\" needs plates and a [[cell]]; accepted: those, or a length");
+  if (!analysis.measured) {
+    t.refuse_if_given("layer_run", "needs layer = \"measured\"; accepted: that, or leave it out");
+    analysis.layer = t.quantity("layer");
+  }
+  analysis.layer_run = t.quantity("layer_run");
   if (in_vessel(c) && analysis.layer >= width(c) / 2)
     t.fail("layer", "is thicker than the vessel; accepted: less than half its width");
   if (analysis.layer >= c.channel.size[2])
@@ -355,6 +363,13 @@ void read_output(Case& c, const Table& t) {
   c.output.cells = !t.has("cells")               ? c.output.fields
                    : t.is_word("cells", "never") ? std::nullopt
                                                  : t.optional_quantity("cells");
+  const bool plates = c.channel.boundary == Boundary::plates;
+  if (!plates && !t.is_word("profiles", "never"))
+    t.refuse_if_given("profiles", "needs boundary = \"plates\"; accepted: that, or \"never\"");
+  if (t.is_word("profiles", "never") || !plates)
+    c.output.profiles.reset();
+  else
+    c.output.profiles = t.optional_quantity("profiles").value_or(default_profiles);
 }
 
 /// Every key's place, for messages that come after reading.

@@ -218,9 +218,11 @@ const std::vector<Key>& table() {
        inf,
        true,
        "2.8 um",
-       {},
        {"measured"},
-       "thickness of the cell-free layer"},
+       {},
+       "thickness of the cell-free layer, or from a run of the cells alone: see Cell-free layer"},
+      amount("analysis", "layer_run", time, 0, inf, true, "0.2 s",
+             "simulated time of that run, whose second half counts"),
       choice("analysis", "walls", {"lower", "both", "vessel"}, {}, "lower",
              "which layers count; in a tube or voxels it is vessel, the layer along the wall"),
       amount("analysis", "average_from", time, 0, inf, false, "0.5 s",
@@ -262,6 +264,18 @@ const std::vector<Key>& table() {
        {"never"},
        {},
        "simulated time between rows of cells.csv; the default is that of fields"},
+      {"output",
+       "profiles",
+       Kind::quantity,
+       &time,
+       0,
+       inf,
+       true,
+       "",
+       {"never"},
+       {},
+       "simulated time between samples of profiles.csv and rows of layer.csv; 0.005 s by default "
+       "between plates"},
   };
   return all;
 }

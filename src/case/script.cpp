@@ -274,6 +274,11 @@ private:
       line("fix cells all hemo/cells %ld cells cells.csv dx_um %.12g dt_s %.12g follow %d",
            steps_in(*c_.output.cells, units_), dx_um, units_.dt, watch_every);
     }
+    if (c_.output.profiles)
+      line("fix profiles all hemo/profiles %ld profiles.csv series layer.csv dx_um %.12g dt_s "
+           "%.12g stress_pa %.12g average_from %.9g",
+           steps_in(*c_.output.profiles, units_), dx_um, units_.dt, units_.pressure(),
+           c_.analysis.average_from);
     append("fix watch all hemo/watch %d mach_max 0.3", watch_every);
     if (cells_ > 0) append(" cells cells");
     if (carriers_ > 0) append(" carriers carriers");

@@ -14,6 +14,7 @@
 #include "lammps/fix_hemo_drag.h"
 #include "lammps/fix_hemo_field.h"
 #include "lammps/fix_hemo_fluid.h"
+#include "lammps/fix_hemo_profiles.h"
 #include "lammps/fix_hemo_progress.h"
 #include "lammps/fix_hemo_series.h"
 #include "lammps/fix_hemo_snapshot.h"
@@ -51,6 +52,7 @@ void register_styles(LAMMPS_NS::LAMMPS& lmp) {
   fixes["hemo/drag"] = new_fix<LAMMPS_NS::FixHemoDrag>;
   fixes["hemo/field"] = new_fix<LAMMPS_NS::FixHemoField>;
   fixes["hemo/fluid"] = new_fix<LAMMPS_NS::FixHemoFluid>;
+  fixes["hemo/profiles"] = new_fix<LAMMPS_NS::FixHemoProfiles>;
   fixes["hemo/progress"] = new_fix<LAMMPS_NS::FixHemoProgress>;
   fixes["hemo/series"] = new_fix<LAMMPS_NS::FixHemoSeries>;
   fixes["hemo/snapshot"] = new_fix<LAMMPS_NS::FixHemoSnapshot>;

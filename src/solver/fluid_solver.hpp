@@ -99,6 +99,13 @@ public:
   /// Momentum given to the low and high plate (a vessel: all to the first) in the last step, on
   /// this rank. Exponential scheme: of a steady flow.
   const std::array<Vec3, 2>& wall_momentum() const { return wall_momentum_; }
+  /// The same of every step since the start. Populations stream in pairs of steps: what the first
+  /// of a pair gave is known, and booked, with the second.
+  struct WallBook {
+    std::array<Vec3, 2> momentum{};
+    long steps = 0;  ///< that are booked
+  };
+  const WallBook& wall_book() const { return wall_book_; }
 
 protected:
   FluidSolver(const Neighbourhood& at, const FluidParameters& parameters)
@@ -108,6 +115,7 @@ protected:
   FluidParameters parameters_;
   std::array<Vec3, 2> wall_shares_{};
   std::array<Vec3, 2> wall_momentum_{};
+  WallBook wall_book_;
 };
 
 /// @throws Error when a block is thinner than the coupling halo (too many ranks along an axis), or

@@ -339,12 +339,12 @@ template <class Real> void LatticeFluid<Real>::step() {
   reduce_forces();
   const bool shift = next_ == fluid::Pass::shift;
   const int first_axis = wraps_x_ ? 1 : 0;  // the sweep keeps the ghosts along x
-  std::array<Vec3, 2> reflected{};
+  std::array<Vec3, 2> bounced{}, reflected{};
   plan_interior(shift);
   if (exponential()) exchange_sources(first_axis);
   if (shift) {
     send_populations_forward();
-    bounce_before_shift();
+    bounced = bounce_before_shift();
   }
   if (exponential()) reflected = reflect_source(1);
   sweep_shell();
@@ -352,8 +352,10 @@ template <class Real> void LatticeFluid<Real>::step() {
   if (shift) {
     send_populations_home();
     if (wraps_x_) wrap_rows_home();
+    book_wall_momentum(bounced, reflected_before_);
     book_wall_momentum(bounce_after_shift(), reflected);
   }
+  reflected_before_ = reflected;
   if (exponential()) std::swap(last_, present_);
   next_ = shift ? fluid::Pass::local : fluid::Pass::shift;
 }
@@ -365,8 +367,11 @@ void LatticeFluid<Real>::book_wall_momentum(const std::array<Vec3, 2>& bounced,
                                             const std::array<Vec3, 2>& reflected) {
   const double carried =
       exponential() ? fluid::ExponentialRates(parameters_.relaxation.tau).D : 0.0;
-  for (std::size_t side = 0; side < 2; ++side)
+  for (std::size_t side = 0; side < 2; ++side) {
     wall_momentum_[side] = (bounced[side] + reflected[side]) / (1 - carried);
+    wall_book_.momentum[side] += wall_momentum_[side];
+  }
+  ++wall_book_.steps;
 }
 
 /// Which rows can be swept behind messages: those farther from the block's faces along y and z than
