@@ -159,8 +159,6 @@ TEST_F(BadInput, Contradictions) {
 }
 
 TEST_F(BadInput, FeaturesOfLaterVersions) {
-  refused(changed("[run]", "[analysis]\nlayer = \"measured\"\n[run]"),
-          "case.toml:15:9: analysis.layer:", "not available");
   refused(changed("[[carrier]]", "[[cell]]\nplacement = \"compress\"\n[[carrier]]"),
           "case.toml:10:13: cell.placement:", "not available");
 }
@@ -178,6 +176,25 @@ std::string channel_with(const std::string& lines) {
 }
 
 const std::string tube = "boundary = \"tube\"\ndiameter = \"7 um\"\nmean_velocity = \"1 mm/s\"\n";
+
+TEST_F(BadInput, LayersAndProfilesThatCannotBeMeasured) {
+  refused(changed("[run]", "[analysis]\nlayer = \"measured\"\n[run]"),
+          "case.toml:15:9: analysis.layer:", "needs plates and a [[cell]]");
+  refused(changed("[run]", "[analysis]\nlayer = \"thick\"\n[run]"),
+          "case.toml:15:9: analysis.layer:", "a length is expected");
+  refused(changed("[run]", "[analysis]\nlayer_run = \"0.1 s\"\n[run]"),
+          "case.toml:15:13: analysis.layer_run:", "needs layer = \"measured\"");
+  const std::string with_cell = "[[cell]]\nvertices = 642\ncount = 1\n[[carrier]]";
+  std::string text = changed("[[carrier]]", with_cell);
+  refused(text + "[analysis]\nlayer = \"measured\"\nlayer_run = \"0 s\"\n",
+          "case.toml:21:13: analysis.layer_run:", "above 0");
+  refused(changed("[run]", "[output]\nprofiles = \"1 um\"\n[run]"),
+          "case.toml:15:12: output.profiles:", "a time is expected");
+  text = channel_with("boundary = \"periodic\"\n");
+  text.replace(text.find("dx = \"0.5 um\""), 0, "dt = \"6 us\"\n");
+  refused(text + "[output]\nprofiles = \"1 ms\"\n",
+          "case.toml:18:12: output.profiles:", "needs boundary = \"plates\"");
+}
 
 TEST_F(BadInput, Tubes) {
   const auto with = [](const std::string& lines) { return channel_with(tube + lines); };
