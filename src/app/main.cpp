@@ -12,6 +12,7 @@
 #include "case/break_off.hpp"
 #include "case/card.hpp"
 #include "case/case_file.hpp"
+#include "case/pack.hpp"
 #include "case/run.hpp"
 #include "lammps/host.hpp"
 
@@ -54,7 +55,7 @@ int lmp(const std::vector<std::string>& arguments) {
 int not_available(const char* what) {
   if (rank() == 0)
     std::fprintf(stderr,
-                 "hemomag: %s is not available in this version; accepted: run, check, lmp, "
+                 "hemomag: %s is not available in this version; accepted: run, check, pack, lmp, "
                  "profiles, validate, bench\n",
                  what);
   return 2;
@@ -71,20 +72,21 @@ int parse_and_run(int argc, char** argv) {
   auto* run = app.add_subcommand("run", "run a case");
   auto* card =
       app.add_subcommand("check", "print the unit and stability card of a case; runs nothing");
-  for (auto* command : {run, card}) {
+  auto* pack = app.add_subcommand("pack", "pack the cells of a case and keep them");
+  for (auto* command : {run, card, pack}) {
     command->add_option("CASE", path, "case file")->required();
     command->add_option("--set", overrides, "override a key: key.path=value")
         ->expected(1)
         ->take_all();
   }
-  run->add_option("--out", out, "run directory (default: out/NAME)");
-  run->add_flag("--force", force, "replace an existing run directory");
+  for (auto* command : {run, pack}) {
+    command->add_option("--out", out, "directory of the output (default: out/NAME)");
+    command->add_flag("--force", force, "replace an existing one");
+  }
   run->add_flag("--resume", resume, "go on from the last checkpoint (not in this version)");
   app.add_subcommand("lmp", "LAMMPS with the hemo styles: hemomag lmp -in FILE")->prefix_command();
   const std::vector<std::pair<const char*, const char*>> later = {
-      {"pack", "only the initial state"},
-      {"sweep", "one run per value of a key"},
-      {"report", "one page of a finished run"}};
+      {"sweep", "one run per value of a key"}, {"report", "one page of a finished run"}};
   std::vector<std::string> names;
   bool json = false;
   auto* validation =
@@ -119,6 +121,7 @@ int parse_and_run(int argc, char** argv) {
   if (app.got_subcommand("profiles")) return hemomag::app::profiles(path, from);
   if (out.empty()) out = "out/" + std::filesystem::path(path).stem().string();
   return with_case(path, overrides, [&](const case_::Case& c) {
+    if (app.got_subcommand("pack")) return case_::pack_case(c, {out, force}, MPI_COMM_WORLD);
     return case_::run_case(c, {out, force}, MPI_COMM_WORLD);
   });
 }

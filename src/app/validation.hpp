@@ -63,6 +63,8 @@ std::vector<Validation> cell_validations();
 std::vector<Validation> shear_validations();
 /// Of magnetic fields (validate_field.cpp).
 std::vector<Validation> field_validations();
+/// Of dense starting states (validate_packing.cpp).
+std::vector<Validation> packing_validations();
 
 /// Run the named ones (all if none) and print them, as a table or as one JSON object a line. Rank 0
 /// works alone.

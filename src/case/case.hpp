@@ -19,7 +19,7 @@ namespace hemomag::case_ {
 
 enum class Boundary { periodic, plates, tube, voxels };
 enum class Plates { lower_rest, symmetric };
-enum class Placement { random, grid };
+enum class Placement { random, grid, compress, grow, file };  // from compress on: all alike
 enum class Hinges { rest, flat };
 enum class CellKind { rbc, platelet, white };
 enum class StressFree { rest_shape, sphere };
@@ -71,6 +71,7 @@ struct Cell {
   std::optional<double> hematocrit;
   std::optional<int> count;
   Placement placement = Placement::random;
+  std::string packed;  ///< path of the packed state, placement = { file = ... }
   Hinges hinges = Hinges::rest;
   double shear_modulus = 6.3e-6;         ///< mu0 [N/m]
   double area_modulus_local = 2.31e-4;   ///< k_d [N/m]
@@ -188,6 +189,11 @@ std::string entry_path(const char* name, std::size_t k, std::size_t count);
 /// Whether the fluid fills a tube or the inside of a surface.
 inline bool in_vessel(const Case& c) {
   return c.channel.boundary == Boundary::tube || c.channel.boundary == Boundary::voxels;
+}
+
+/// Whether the cells are packed, or were, rather than put one by one.
+inline bool is_packed(const Case& c) {
+  return !c.cells.empty() && c.cells[0].placement >= Placement::compress;
 }
 
 }  // namespace hemomag::case_

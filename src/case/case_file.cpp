@@ -1,5 +1,6 @@
 #include "case/case_file.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -8,6 +9,7 @@
 #include "case/cell_model.hpp"
 #include "case/keys.hpp"
 #include "case/lattice_units.hpp"
+#include "case/packed_file.hpp"
 #include "case/read_magnetic.hpp"
 #include "case/toml_table.hpp"
 #include "case/vessel.hpp"
@@ -260,6 +262,42 @@ void read_cell_count(Cell& cell, const Table& t) {
     cell.hematocrit = t.number("hematocrit");
 }
 
+void read_placement(Cell& cell, const Table& t, const std::string& case_path) {
+  if (t.has("placement") && t.node("placement").is_table()) {
+    const toml::table& file = *t.node("placement").as_table();
+    const auto name = file["file"].value<std::string>();
+    if (!name || file.size() != 1)
+      t.fail("placement", "is a table of other than a file; accepted: { file = \"packed.data\" }");
+    cell.placement = Placement::file;
+    cell.packed = (std::filesystem::path(case_path).parent_path() / *name).string();
+    if (!std::filesystem::is_regular_file(cell.packed) || !std::ifstream(cell.packed))
+      t.fail("placement",
+             cell.packed + ": cannot be read; accepted: a state that hemomag pack wrote");
+    return;
+  }
+  const std::string how = t.word("placement");
+  cell.placement = how == "grid"       ? Placement::grid
+                   : how == "compress" ? Placement::compress
+                   : how == "grow"     ? Placement::grow
+                                       : Placement::random;
+}
+
+/// Packing is of all cells at once, and plates compress between plates only.
+void check_placements(const Case& c, const std::vector<Table>& tables) {
+  for (std::size_t k = 0; k < c.cells.size(); ++k) {
+    const Placement how = c.cells[k].placement, first = c.cells[0].placement;
+    if (how != first && std::max(how, first) >= Placement::compress)
+      tables[k].missing("placement", "differs from another [[cell]]; accepted: the same for all "
+                                     "where one is packed (compress, grow or a file)");
+    if (how == Placement::compress && c.channel.boundary != Boundary::plates)
+      tables[k].fail("placement", "\"compress\" drives two plates together and needs boundary = "
+                                  "\"plates\"; accepted: \"grow\"");
+    if (how == Placement::file && c.cells[k].packed != c.cells[0].packed)
+      tables[k].fail("placement", "names another file than the first [[cell]]; accepted: one file "
+                                  "for all");
+  }
+}
+
 Cell read_cell(const Table& t, const std::string& case_path) {
   const std::string kind = t.word("kind");
   Cell cell = standard_cell(kind == "platelet" ? CellKind::platelet
@@ -274,7 +312,7 @@ Cell read_cell(const Table& t, const std::string& case_path) {
     t.refuse_if_given("stress_free", "is for red cells without a mesh of their own, others are at "
                                      "rest as they are; accepted: leave it out");
   if (t.word("stress_free") == "sphere") cell.stress_free = StressFree::sphere;
-  cell.placement = t.word("placement") == "grid" ? Placement::grid : Placement::random;
+  read_placement(cell, t, case_path);
   cell.hinges = t.word("hinges") == "flat" ? Hinges::flat : Hinges::rest;
   if (t.has("shear_modulus")) cell.shear_modulus = t.quantity("shear_modulus");
   if (t.has("bending_modulus")) cell.bending_modulus = t.quantity("bending_modulus");
@@ -397,6 +435,12 @@ std::string effective_text(Source& source, const Case& c, const std::string& tex
       source.root["cell"][k].as_table()->insert_or_assign("mesh", copy);
       copies = true;
     }
+  for (std::size_t k = 0; k < c.cells.size(); ++k)
+    if (c.cells[k].placement == Placement::file) {
+      source.root["cell"][k].as_table()->insert_or_assign("placement",
+                                                          toml::table{{"file", packed_copy}});
+      copies = true;
+    }
   copies = point_at_table_copies(source, c) || copies;
   if (!copies && source.overridden.empty()) return text;
   std::stringstream out;
@@ -441,8 +485,9 @@ Case read_case(const std::string& path, const std::vector<std::string>& override
   check_size(c, channel);
   read_numerics(c, numerics);
   read_vessel(c, channel, path);
-  for (const Table& t : entries(source, source.root.get("cell"), "cell", "cell"))
-    c.cells.push_back(read_cell(t, path));
+  const auto cells = entries(source, source.root.get("cell"), "cell", "cell");
+  for (const Table& t : cells) c.cells.push_back(read_cell(t, path));
+  check_placements(c, cells);
   for (const Table& t : entries(source, source.root.get("carrier"), "carrier", "carrier")) {
     c.carriers.push_back(read_carrier(t));
     if (c.carriers.back().feedback != c.carriers.front().feedback)

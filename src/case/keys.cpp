@@ -109,8 +109,8 @@ const std::vector<Key>& table() {
              "volume fraction; the nearest whole number of cells; no default for other than red "
              "cells"),
       integer("cell", "count", 0, 1e7, "", "number of cells, instead of hematocrit"),
-      choice("cell", "placement", {"random", "grid"}, {"compress", "grow", "file"}, "random",
-             "initial positions"),
+      choice("cell", "placement", {"random", "grid", "compress", "grow"}, {}, "random",
+             "initial positions, or { file = \"packed.data\" }: see Dense blood"),
       choice("cell", "stress_free", {"biconcave", "sphere"}, {}, "biconcave",
              "shape in which a red cell's springs are at rest: its own, or a near-sphere of the "
              "same area; see Cells"),

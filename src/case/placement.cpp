@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <numeric>
 #include <random>
@@ -9,6 +10,9 @@
 
 #include "base/error.hpp"
 #include "case/lattice_units.hpp"
+#include "case/packed_file.hpp"
+#include "case/packing.hpp"
+#include "lattice/surface_vessel.hpp"
 
 namespace hemomag::case_ {
 namespace {
@@ -124,6 +128,32 @@ std::string cell_key(const Case& c, std::size_t model) {
   return position(c, entry_path("cell", model, c.cells.size()) + ".placement");
 }
 
+/// A cell of any shape: the middle of the box around it, and the surface about that, in um.
+class ShapedCell {
+public:
+  ShapedCell(const CellModel& model, const std::vector<Vec3>& x) {
+    Vec3 low = x[0], high = x[0];
+    for (const Vec3& p : x)
+      for (std::size_t d = 0; d < 3; ++d)
+        low[d] = std::min(low[d], p[d]), high[d] = std::max(high[d], p[d]);
+    middle_ = 0.5 * (low + high);
+    reach_ = 0.5 * norm(high - low);
+    lattice::Surface s{{}, model.mesh.triangles};
+    for (const Vec3& p : x) s.points.push_back(unit * (p - middle_));
+    surface_ = std::make_unique<lattice::SurfaceVessel>(std::move(s));
+  }
+  bool contains(const Vec3& x, const Box& box) const {
+    const Vec3 r = box.nearest(x - middle_);
+    return norm(r) < reach_ && surface_->distance(unit * r) > 0;
+  }
+
+private:
+  static constexpr double unit = 1e6;
+  Vec3 middle_;
+  double reach_ = 0;
+  std::unique_ptr<lattice::SurfaceVessel> surface_;
+};
+
 /// Everything placed so far. Models are referred to, not copied.
 class Packing {
 public:
@@ -157,6 +187,12 @@ public:
     return x;
   }
 
+  /// A cell that no longer has the shape of its model.
+  void add_shaped(const CellModel& model, const std::vector<Vec3>& x) {
+    for (const Vec3& p : x) carriers_near_.add(p);
+    shaped_.emplace_back(model, x);
+  }
+
   bool carrier_fits(const Vec3& x) const {
     return box_.off_walls(x, carrier_plate_gap) && !carriers_near_.any_near(x) && !inside_any(x);
   }
@@ -170,13 +206,17 @@ private:
     std::vector<Vec3> x;
   };
   bool inside_any(const Vec3& x) const {
-    return std::any_of(placed_.begin(), placed_.end(), [&](const Placed& p) {
-      return p.pose.inside(*p.model, box_.nearest(x - p.pose.centre));
-    });
+    return std::any_of(placed_.begin(), placed_.end(),
+                       [&](const Placed& p) {
+                         return p.pose.inside(*p.model, box_.nearest(x - p.pose.centre));
+                       }) ||
+           std::any_of(shaped_.begin(), shaped_.end(),
+                       [&](const ShapedCell& cell) { return cell.contains(x, box_); });
   }
   Box box_;
   Bins vertices_, carriers_near_;
   std::vector<Placed> placed_;
+  std::vector<ShapedCell> shaped_;
 };
 
 void place_at_random(System& system, Packing& packing, const Case& c, std::size_t model, int count,
@@ -186,7 +226,9 @@ void place_at_random(System& system, Packing& packing, const Case& c, std::size_
     if (tries >= most_tries)
       throw Error(cell_key(c, model) + ": random placement put " + std::to_string(placed) + " of " +
                   std::to_string(count) + " cells after " + std::to_string(tries) +
-                  " tries; accepted: fewer cells, or a packed state (placement \"compress\")");
+                  " tries; accepted: fewer cells, or " +
+                  (is_packed(c) ? "a larger channel"
+                                : "a packed state (placement \"compress\" or \"grow\")"));
     const Pose pose = random_pose(random, packing.box());
     if (!packing.fits(system.models[model], pose)) continue;
     system.cells.push_back({model, packing.add(system.models[model], pose)});
@@ -207,9 +249,10 @@ void place_on_grid(System& system, Packing& packing, const Case& c, std::size_t 
   const int nx = static_cast<int>(box.size[0] / side), ny = static_cast<int>(box.size[1] / side),
             nz = static_cast<int>((box.size[2] - 2 * margin) / height);
   const auto no_room = [&](long room) {
-    return Error(cell_key(c, model) + ": a grid has room for " + std::to_string(room) + " of " +
-                 std::to_string(count) +
-                 " cells; accepted: fewer cells, or a packed state (placement \"compress\")");
+    return Error(
+        cell_key(c, model) + ": a grid has room for " + std::to_string(room) + " of " +
+        std::to_string(count) +
+        " cells; accepted: fewer cells, or a packed state (placement \"compress\" or \"grow\")");
   };
   const long places = static_cast<long>(nx) * ny * nz;
   if (places < count) throw no_room(places);
@@ -263,6 +306,29 @@ void place_carriers(System& system, const Packing& packing, const Case& c, std::
   }
 }
 
+/// The largest cells come first: the small ones still fit between them.
+std::vector<std::size_t> largest_first(const std::vector<CellModel>& models) {
+  std::vector<std::size_t> order(models.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return models[a].volume > models[b].volume;
+  });
+  return order;
+}
+
+/// Regular entries first: the random ones find their places around them.
+void place_loosely(System& system, Packing& packing, const Case& c, Random& random) {
+  for (const Placement how : {Placement::grid, Placement::random})
+    for (const std::size_t m : largest_first(system.models)) {
+      if (c.cells[m].placement != how) continue;
+      const int count = cell_count(c, c.cells[m], system.models[m]);
+      if (how == Placement::grid)
+        place_on_grid(system, packing, c, m, count);
+      else
+        place_at_random(system, packing, c, m, count, random);
+    }
+}
+
 }  // namespace
 
 int cell_count(const Case& c, const Cell& cell, const CellModel& model) {
@@ -271,27 +337,34 @@ int cell_count(const Case& c, const Cell& cell, const CellModel& model) {
       std::lround(cell.hematocrit.value_or(0) * fluid_volume(c) / model.volume));
 }
 
+std::vector<System::PlacedCell> scatter_cells(const Case& c, const std::vector<CellModel>& models,
+                                              const std::vector<int>& counts) {
+  System system{models, {}, {}, {}};
+  Packing packing(c);
+  Random random(c.seed);
+  for (const std::size_t m : largest_first(models))
+    place_at_random(system, packing, c, m, counts[m], random);
+  return std::move(system.cells);
+}
+
 System place(const Case& c) {
   System system;
   system.models = cell_models(c);
   Packing packing(c);
   Random random(c.seed);
-  // Regular entries first: the random ones find their places around them. Of each the largest cells
-  // first: the small ones still fit between them.
-  std::vector<std::size_t> order(c.cells.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return system.models[a].volume > system.models[b].volume;
-  });
-  for (const Placement how : {Placement::grid, Placement::random})
-    for (const std::size_t m : order) {
-      if (c.cells[m].placement != how) continue;
-      const int count = cell_count(c, c.cells[m], system.models[m]);
-      if (how == Placement::grid)
-        place_on_grid(system, packing, c, m, count);
-      else
-        place_at_random(system, packing, c, m, count, random);
+  if (is_packed(c)) {
+    if (c.cells[0].placement == Placement::file) {
+      system.cells = read_packed(c, system.models);
+      system.packing = check_packed(c, system.models, system.cells);
+    } else {
+      PackedCells packed = pack_cells(c, system.models);
+      system.cells = std::move(packed.cells);
+      system.packing = packed.report;
     }
+    for (const auto& cell : system.cells) packing.add_shaped(system.models[cell.model], cell.x);
+  } else {
+    place_loosely(system, packing, c, random);
+  }
   for (std::size_t entry = 0; entry < c.carriers.size(); ++entry)
     place_carriers(system, packing, c, entry, random);
   return system;

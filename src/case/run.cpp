@@ -16,6 +16,8 @@
 #include "case/external_field.hpp"
 #include "case/lattice_units.hpp"
 #include "case/measured_layer.hpp"
+#include "case/pack.hpp"
+#include "case/packed_file.hpp"
 #include "case/profile_summary.hpp"
 #include "case/script.hpp"
 #include "io/files.hpp"
@@ -50,7 +52,10 @@ std::string whole_file(const std::string& path) {
   return content;
 }
 
-void add_mesh_copies(const Case& c, Files& files) {
+/// Meshes and starting states of cells that the case refers to.
+void add_cell_copies(const Case& c, Files& files) {
+  if (!c.cells.empty() && c.cells[0].placement == Placement::file)
+    files[packed_copy] = whole_file(c.cells[0].packed);
   for (std::size_t k = 0; k < c.cells.size(); ++k)
     if (const std::string copy = mesh_copy(c, k); !copy.empty())
       files[copy] = whole_file(c.cells[k].mesh);
@@ -69,12 +74,16 @@ int prepare(const Case& c, const RunOptions& options, Files& files, System& syst
                     ": exists already; accepted: another directory, or --force to replace it",
                 bad_input);
   system = place(c);
+  if (system.packing) {
+    std::printf("%s", packing_text(*system.packing).c_str());
+    files["pack.json"] = packing_json(*system.packing);
+  }
   files["case.toml"] = c.text;
   files["cells.data"] = cells_data(c, system);
   files["in.lammps"] = lammps_script(c, system);
   if (const std::string copy = geometry_copy(c); !copy.empty())
     files[copy] = whole_file(c.channel.geometry);
-  add_mesh_copies(c, files);
+  add_cell_copies(c, files);
   for (const MagneticSource& s : c.magnetic.sources)
     if (s.table) files[table_copy(s)] = whole_file(s.file);
   return done;
@@ -174,7 +183,7 @@ int measure_layer(Case c, System system, const std::string& out, MPI_Comm comm) 
       Files files{{"case.toml", alone.text},
                   {"cells.data", cells_data(alone, cells)},
                   {"in.lammps", lammps_script(alone, cells)}};
-      add_mesh_copies(alone, files);
+      add_cell_copies(alone, files);
       write_directory(out + "/layer", files);
     } catch (const std::exception& e) {
       code = fail(e.what(), file_trouble);

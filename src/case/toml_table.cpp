@@ -48,9 +48,8 @@ std::string Table::word(const char* name) const {
   const Key& key = *find_key(schema_, name);
   if (!has(name)) return key.fallback;
   const auto text = node(name).value<std::string>();
-  const bool table = node(name).is_table();  // placement = { file = ... }
-  if (!text && !table) wrong_type(name, key);
-  const std::string word = table ? "file" : *text;
+  if (!text) wrong_type(name, key);
+  const std::string word = *text;
   if (key.kind == Kind::text) return word;
   for (const char* choice : key.choices)
     if (word == choice) return word;

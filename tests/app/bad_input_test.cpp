@@ -159,8 +159,8 @@ TEST_F(BadInput, Contradictions) {
 }
 
 TEST_F(BadInput, FeaturesOfLaterVersions) {
-  refused(changed("[[carrier]]", "[[cell]]\nplacement = \"compress\"\n[[carrier]]"),
-          "case.toml:10:13: cell.placement:", "not available");
+  refused(changed("[[carrier]]", "[[cell]]\nplacement = \"dense\"\n[[carrier]]"),
+          "case.toml:10:13: cell.placement:", "\"grow\"");
 }
 
 /// `good` with other lines in place of its shear rate, and no default gradient.
