@@ -65,6 +65,10 @@ std::vector<Validation> shear_validations();
 std::vector<Validation> field_validations();
 /// Of dense starting states (validate_packing.cpp).
 std::vector<Validation> packing_validations();
+/// Of the adhesion of two cells (validate_separation.cpp).
+std::vector<Validation> separation_validations();
+/// Of contact between carriers and cells (validate_no_leak.cpp).
+std::vector<Validation> no_leak_validations();
 
 /// Run the named ones (all if none) and print them, as a table or as one JSON object a line. Rank 0
 /// works alone.

@@ -25,6 +25,7 @@ enum class CellKind { rbc, platelet, white };
 enum class StressFree { rest_shape, sphere };
 enum class CarrierKind { particle, worm };
 enum class Repulsion { soft, paper };
+enum class CarrierContact { vertices, surface };
 enum class FieldKind { uniform, gradient, quadrupole, rotating, magnet, coil, wire, table };
 enum class MagnetShape { block, cylinder };
 enum class CoilPair { none, same, opposite };
@@ -100,9 +101,12 @@ struct Contact {
   double morse_r0 = 0.5e-6;          ///< [m]
   double morse_cutoff = 1.5e-6;      ///< [m]
   std::optional<double> cell_sigma;  ///< [m]; default 0.6 x longest rest edge, at least 0.25 um
-  double carrier_sigma = 0.5e-6;     ///< [m]
-  double epsilon = 1.0;              ///< [kBT] at 3286 vertices
-  double plate_sigma = 0.25e-6;      ///< [m]
+  CarrierContact carrier_contact = CarrierContact::vertices;
+  double carrier_sigma = 0.5e-6;    ///< [m], vertices
+  double surface_range = 0.25e-6;   ///< [m], surface
+  double surface_stiffness = 5e-5;  ///< [N/m], surface
+  double epsilon = 1.0;             ///< [kBT] at 3286 vertices
+  double plate_sigma = 0.25e-6;     ///< [m]
   Repulsion repulsion = Repulsion::soft;
 };
 

@@ -351,6 +351,18 @@ void read_contact(Case& c, const Table& t) {
   c.contact.morse_cutoff = t.quantity("morse_cutoff");
   c.contact.cell_sigma = t.optional_quantity("cell_sigma");
   c.contact.carrier_sigma = t.quantity("carrier_sigma");
+  c.contact.carrier_contact =
+      t.word("carrier_contact") == "surface" ? CarrierContact::surface : CarrierContact::vertices;
+  const bool surface = c.contact.carrier_contact == CarrierContact::surface;
+  for (const char* key : {"surface_range", "surface_stiffness"})
+    if (!surface)
+      t.refuse_if_given(key,
+                        "needs carrier_contact = \"surface\"; accepted: that, or leave it out");
+  if (surface)
+    t.refuse_if_given("carrier_sigma",
+                      "is for carrier_contact = \"vertices\"; accepted: that, or leave it out");
+  c.contact.surface_range = t.quantity("surface_range");
+  c.contact.surface_stiffness = t.quantity("surface_stiffness");
   c.contact.epsilon = t.number("epsilon");
   c.contact.plate_sigma = t.quantity("plate_sigma");
   c.contact.repulsion = t.word("repulsion") == "soft" ? Repulsion::soft : Repulsion::paper;

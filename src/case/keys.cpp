@@ -151,6 +151,13 @@ const std::vector<Key>& table() {
       amount("contact", "cell_sigma", length, 0, inf, true, "",
              "cell-cell repulsion; default 0.6 x longest rest edge, at least 0.25 um"),
       amount("contact", "carrier_sigma", length, 0, inf, true, "0.5 um", "cell-carrier repulsion"),
+      choice("contact", "carrier_contact", {"vertices", "surface"}, {}, "vertices",
+             "carriers from cells: Lennard-Jones from vertices (carrier_sigma), or from the "
+             "triangles between them (surface_range, surface_stiffness)"),
+      amount("contact", "surface_range", length, 0, inf, true, "0.25 um",
+             "centre of a carrier from a cell's surface, where the repulsion begins"),
+      amount("contact", "surface_stiffness", tension, 0, inf, true, "50 uN/m",
+             "of that repulsion where it begins"),
       number("contact", "epsilon", 0, inf, true, "1.0",
              "kBT at 3286 vertices, times (3286/vertices)^2 cell-cell, times 3286/vertices "
              "cell-carrier"),
