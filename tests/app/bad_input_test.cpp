@@ -158,6 +158,19 @@ TEST_F(BadInput, Contradictions) {
           "case.toml:4:14: channel.shear_rate:", "plates");
 }
 
+TEST_F(BadInput, ContactsThatDoNotGoTogether) {
+  refused(changed("[run]", "[contact]\nsurface_range = \"0.2 um\"\n[run]"),
+          "case.toml:15:17: contact.surface_range:", "needs carrier_contact = \"surface\"");
+  refused(changed("[run]", "[contact]\ncarrier_contact = \"surface\"\ncarrier_sigma = \"0.4 um\"\n"
+                           "[run]"),
+          "case.toml:16:17: contact.carrier_sigma:", "is for carrier_contact = \"vertices\"");
+  refused(changed("[run]", "[contact]\ncarrier_contact = \"edges\"\n[run]"),
+          "case.toml:15:19: contact.carrier_contact:", "\"vertices\", \"surface\"");
+  refused(changed("[[carrier]]", "[[cell]]\nvertices = 642\ncount = 1\n[[carrier]]") +
+              "[contact]\ncarrier_contact = \"surface\"\nsurface_stiffness = \"1 N/m\"\n",
+          "case.toml:12:1: carrier:", "surface_stiffness");
+}
+
 TEST_F(BadInput, FeaturesOfLaterVersions) {
   refused(changed("[[carrier]]", "[[cell]]\nplacement = \"dense\"\n[[carrier]]"),
           "case.toml:10:13: cell.placement:", "\"grow\"");
