@@ -7,6 +7,7 @@
 #include <mpi.h>
 
 #include "app/bench.hpp"
+#include "app/profiles.hpp"
 #include "app/validation.hpp"
 #include "case/break_off.hpp"
 #include "case/card.hpp"
@@ -54,8 +55,8 @@ int lmp(const std::vector<std::string>& arguments) {
 int not_available(const char* what) {
   if (rank() == 0)
     std::fprintf(stderr,
-                 "hemomag: %s is not available in this version; accepted: run, check, pack, "
-                 "lmp, validate, bench\n",
+                 "hemomag: %s is not available in this version; accepted: run, check, pack, lmp, "
+                 "profiles, validate, bench\n",
                  what);
   return 2;
 }
@@ -97,6 +98,11 @@ int parse_and_run(int argc, char** argv) {
   speed->add_option("NAME", names, "benchmarks to run");
   for (auto* command : {validation, speed})
     command->add_flag("--json", json, "one JSON object a line");
+  double from = 0;
+  auto* across = app.add_subcommand(
+      "profiles", "hematocrit, velocity and cell-free layer of a run from its 3-D snapshots");
+  across->add_option("DIR", path, "run directory")->required();
+  across->add_option("--from", from, "time in seconds at which the average begins");
   for (const auto& [name, help] : later)
     app.add_subcommand(name, std::string(help) + " (not in this version)")->prefix_command();
 
@@ -112,6 +118,7 @@ int parse_and_run(int argc, char** argv) {
   if (app.got_subcommand("validate")) return hemomag::app::validate(names, json, figures);
   if (app.got_subcommand("bench")) return hemomag::app::bench(names, json);
   if (app.got_subcommand("check")) return with_case(path, overrides, check);
+  if (app.got_subcommand("profiles")) return hemomag::app::profiles(path, from);
   if (out.empty()) out = "out/" + std::filesystem::path(path).stem().string();
   return with_case(path, overrides, [&](const case_::Case& c) {
     if (app.got_subcommand("pack")) return case_::pack_case(c, {out, force}, MPI_COMM_WORLD);

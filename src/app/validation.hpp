@@ -54,9 +54,9 @@ const std::vector<Validation>& validations();
 
 /// Those of the fluid (validate_fluid.cpp), of curved walls (validate_curved.cpp), of the membrane
 /// without a fluid (validate_moduli.cpp, validate_stretch.cpp), of one cell in the fluid
-/// (validate_cell.cpp, validate_shear.cpp), of dense starting states (validate_packing.cpp), and of
-/// carriers: their motion in fluid (validate_drift.cpp), the forces between them
-/// (validate_dipole.cpp) and chains of them (validate_chain.cpp).
+/// (validate_cell.cpp, validate_shear.cpp), and of carriers: their motion in fluid
+/// (validate_drift.cpp), the forces between them (validate_dipole.cpp) and chains of them
+/// (validate_chain.cpp).
 std::vector<Validation> fluid_validations();
 std::vector<Validation> curved_validations();
 std::vector<Validation> moduli_validations();
@@ -68,7 +68,12 @@ std::vector<Validation> dipole_validations();
 std::vector<Validation> chain_validations();
 /// Of magnetic fields (validate_field.cpp).
 std::vector<Validation> field_validations();
+/// Of dense starting states (validate_packing.cpp).
 std::vector<Validation> packing_validations();
+/// Of the adhesion of two cells (validate_separation.cpp).
+std::vector<Validation> separation_validations();
+/// Of contact between carriers and cells (validate_no_leak.cpp).
+std::vector<Validation> no_leak_validations();
 
 /// Run the named ones (all if none) and print them, as a table or as one JSON object a line. Rank 0
 /// works alone.

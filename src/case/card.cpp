@@ -211,6 +211,7 @@ private:
     if (carrier.density) inertia(carrier);
     pull(carrier);
     if (c_.magnetic.dipoles) contact(carrier);
+    surface_contact(carrier);
     if (carrier.kind == CarrierKind::worm) worm(carrier);
   }
 
@@ -323,6 +324,17 @@ private:
     add("contact sub-steps", text("%.0f", substeps),
         substeps <= LAMMPS_NS::FixHemoDrag::most_substeps ? Verdict::fine : Verdict::refused,
         text("at most %d: lower B0 or dt", LAMMPS_NS::FixHemoDrag::most_substeps));
+  }
+
+  /// Seven triangles at a vertex push a carrier that takes explicit steps: stable below 2.
+  void surface_contact(const Carrier& carrier) {
+    if (c_.contact.carrier_contact != CarrierContact::surface || c_.cells.empty()) return;
+    constexpr double triangles = 7, stable = 2;
+    const double friction = bare_friction(c_, carrier);
+    const double ratio = triangles * c_.contact.surface_stiffness * units_.dt / friction;
+    add("surface contact", text("7 k dt/Gamma = %.3g", ratio), below(ratio, stable / 4, stable),
+        text("under %g: the largest stable contact.surface_stiffness is %.3g uN/m here", stable,
+             1e6 * stable * friction / (triangles * units_.dt)));
   }
 
   /// Contact stiffness in the strongest field [N/m].

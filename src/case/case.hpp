@@ -25,6 +25,7 @@ enum class CellKind { rbc, platelet, white };
 enum class StressFree { rest_shape, sphere };
 enum class CarrierKind { particle, worm };
 enum class Repulsion { soft, paper };
+enum class CarrierContact { vertices, surface };
 enum class FieldKind { uniform, gradient, quadrupole, rotating, magnet, coil, wire, table };
 enum class MagnetShape { block, cylinder };
 enum class CoilPair { none, same, opposite };
@@ -101,9 +102,12 @@ struct Contact {
   double morse_r0 = 0.5e-6;          ///< [m]
   double morse_cutoff = 1.5e-6;      ///< [m]
   std::optional<double> cell_sigma;  ///< [m]; default 0.6 x longest rest edge, at least 0.25 um
-  double carrier_sigma = 0.5e-6;     ///< [m]
-  double epsilon = 1.0;              ///< [kBT] at 3286 vertices
-  double plate_sigma = 0.25e-6;      ///< [m]
+  CarrierContact carrier_contact = CarrierContact::vertices;
+  double carrier_sigma = 0.5e-6;    ///< [m], vertices
+  double surface_range = 0.25e-6;   ///< [m], surface
+  double surface_stiffness = 5e-5;  ///< [N/m], surface
+  double epsilon = 1.0;             ///< [kBT] at 3286 vertices
+  double plate_sigma = 0.25e-6;     ///< [m]
   Repulsion repulsion = Repulsion::soft;
   double repulsion_kappa = 30;  ///< of the soft one
 };
@@ -142,7 +146,9 @@ struct Magnetic {
 };
 
 struct Analysis {
-  double layer = 2.8e-6;  ///< [m]
+  double layer = 2.8e-6;   ///< [m]
+  bool measured = false;   ///< the layer comes from a run of the cells alone (measured_layer.hpp)
+  double layer_run = 0.2;  ///< [s], of that run
   LayerWalls walls = LayerWalls::lower;
   double average_from = 0;  ///< [s]
 };
@@ -157,6 +163,7 @@ struct Output {
   std::optional<double> fields;         ///< [s]; empty: never
   std::optional<double> series = 1e-3;  ///< [s]; empty: never
   std::optional<double> cells;          ///< [s]; empty: never
+  std::optional<double> profiles;       ///< [s]; empty: never
 };
 
 struct Case {

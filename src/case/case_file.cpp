@@ -17,6 +17,8 @@
 namespace hemomag::case_ {
 namespace {
 
+constexpr double default_profiles = 5e-3;  // s, between plates
+
 std::string read_text(const std::string& path) {
   std::ifstream file(path);
   std::stringstream text;
@@ -357,6 +359,18 @@ void read_contact(Case& c, const Table& t) {
   c.contact.morse_cutoff = t.quantity("morse_cutoff");
   c.contact.cell_sigma = t.optional_quantity("cell_sigma");
   c.contact.carrier_sigma = t.quantity("carrier_sigma");
+  c.contact.carrier_contact =
+      t.word("carrier_contact") == "surface" ? CarrierContact::surface : CarrierContact::vertices;
+  const bool surface = c.contact.carrier_contact == CarrierContact::surface;
+  for (const char* key : {"surface_range", "surface_stiffness"})
+    if (!surface)
+      t.refuse_if_given(key,
+                        "needs carrier_contact = \"surface\"; accepted: that, or leave it out");
+  if (surface)
+    t.refuse_if_given("carrier_sigma",
+                      "is for carrier_contact = \"vertices\"; accepted: that, or leave it out");
+  c.contact.surface_range = t.quantity("surface_range");
+  c.contact.surface_stiffness = t.quantity("surface_stiffness");
   c.contact.epsilon = t.number("epsilon");
   c.contact.plate_sigma = t.quantity("plate_sigma");
   c.contact.repulsion = t.word("repulsion") == "soft" ? Repulsion::soft : Repulsion::paper;
@@ -368,8 +382,14 @@ void read_contact(Case& c, const Table& t) {
 
 void read_analysis(Case& c, const Table& t) {
   auto& analysis = c.analysis;
-  t.refuse_later("layer");
-  analysis.layer = t.quantity("layer");
+  analysis.measured = t.is_word("layer", "measured");
+  if (analysis.measured && (c.channel.boundary != Boundary::plates || c.cells.empty()))
+    t.fail("layer", "\"measured\" needs plates and a [[cell]]; accepted: those, or a length");
+  if (!analysis.measured) {
+    t.refuse_if_given("layer_run", "needs layer = \"measured\"; accepted: that, or leave it out");
+    analysis.layer = t.quantity("layer");
+  }
+  analysis.layer_run = t.quantity("layer_run");
   if (in_vessel(c) && analysis.layer >= width(c) / 2)
     t.fail("layer", "is thicker than the vessel; accepted: less than half its width");
   if (analysis.layer >= c.channel.size[2])
@@ -405,6 +425,13 @@ void read_output(Case& c, const Table& t) {
   c.output.cells = !t.has("cells")               ? c.output.fields
                    : t.is_word("cells", "never") ? std::nullopt
                                                  : t.optional_quantity("cells");
+  const bool plates = c.channel.boundary == Boundary::plates;
+  if (!plates && !t.is_word("profiles", "never"))
+    t.refuse_if_given("profiles", "needs boundary = \"plates\"; accepted: that, or \"never\"");
+  if (t.is_word("profiles", "never") || !plates)
+    c.output.profiles.reset();
+  else
+    c.output.profiles = t.optional_quantity("profiles").value_or(default_profiles);
 }
 
 /// Every key's place, for messages that come after reading.

@@ -153,6 +153,13 @@ const std::vector<Key>& table() {
       amount("contact", "cell_sigma", length, 0, inf, true, "",
              "cell-cell repulsion; default 0.6 x longest rest edge, at least 0.25 um"),
       amount("contact", "carrier_sigma", length, 0, inf, true, "0.5 um", "cell-carrier repulsion"),
+      choice("contact", "carrier_contact", {"vertices", "surface"}, {}, "vertices",
+             "carriers from cells: Lennard-Jones from vertices (carrier_sigma), or from the "
+             "triangles between them (surface_range, surface_stiffness)"),
+      amount("contact", "surface_range", length, 0, inf, true, "0.25 um",
+             "centre of a carrier from a cell's surface, where the repulsion begins"),
+      amount("contact", "surface_stiffness", tension, 0, inf, true, "50 uN/m",
+             "of that repulsion where it begins"),
       number("contact", "epsilon", 0, inf, true, "1.0",
              "kBT at 3286 vertices, times (3286/vertices)^2 cell-cell, times 3286/vertices "
              "cell-carrier"),
@@ -222,9 +229,11 @@ const std::vector<Key>& table() {
        inf,
        true,
        "2.8 um",
-       {},
        {"measured"},
-       "thickness of the cell-free layer"},
+       {},
+       "thickness of the cell-free layer, or from a run of the cells alone: see Cell-free layer"},
+      amount("analysis", "layer_run", time, 0, inf, true, "0.2 s",
+             "simulated time of that run, whose second half counts"),
       choice("analysis", "walls", {"lower", "both", "vessel"}, {}, "lower",
              "which layers count; in a tube or voxels it is vessel, the layer along the wall"),
       amount("analysis", "average_from", time, 0, inf, false, "0.5 s",
@@ -266,6 +275,18 @@ const std::vector<Key>& table() {
        {"never"},
        {},
        "simulated time between rows of cells.csv; the default is that of fields"},
+      {"output",
+       "profiles",
+       Kind::quantity,
+       &time,
+       0,
+       inf,
+       true,
+       "",
+       {"never"},
+       {},
+       "simulated time between samples of profiles.csv and rows of layer.csv; 0.005 s by default "
+       "between plates"},
   };
   return all;
 }

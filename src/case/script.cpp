@@ -62,7 +62,12 @@ private:
                        length(system_.models[m].longest_rest_length / c_.cells[m].stretch_ratio));
     for (const Carrier& carrier : c_.carriers)
       if (carrier.kind == CarrierKind::worm) reach = std::max(reach, length(6 * carrier.radius));
+    if (surface_contact()) reach += length(c_.contact.surface_range);
     return std::max(reach, largest_pair_cutoff()) + skin;
+  }
+
+  bool surface_contact() const {
+    return cells_ > 0 && carriers_ > 0 && c_.contact.carrier_contact == CarrierContact::surface;
   }
 
   double largest_pair_cutoff() const {
@@ -72,7 +77,8 @@ private:
       for (std::size_t j = i; j < cells_; ++j)
         cut = std::max({cut, lj * length(cell_sigma(c_, system_.models[i], system_.models[j])),
                         c_.contact.morse_depth > 0 ? length(c_.contact.morse_cutoff) : 0.0});
-    if (cells_ > 0 && carriers_ > 0) cut = std::max(cut, lj * length(c_.contact.carrier_sigma));
+    if (cells_ > 0 && carriers_ > 0 && !surface_contact())
+      cut = std::max(cut, lj * length(c_.contact.carrier_sigma));
     if (carriers_ > 0 && c_.magnetic.dipoles) cut = std::max(cut, dipole_cutoff(c_));
     return cut;
   }
@@ -138,8 +144,11 @@ private:
                length(cell_sigma(c_, system_.models[i], system_.models[j])));
       }
       for (std::size_t b = 0; b < carriers_; ++b)
-        line("pair_coeff %zu %zu %slj %.9g %.9g", i + 1, cells_ + b + 1, style,
-             k.epsilon * finer(i) * thermal, length(k.carrier_sigma));
+        if (surface_contact())
+          line("pair_coeff %zu %zu none", i + 1, cells_ + b + 1);
+        else
+          line("pair_coeff %zu %zu %slj %.9g %.9g", i + 1, cells_ + b + 1, style,
+               k.epsilon * finer(i) * thermal, length(k.carrier_sigma));
     }
   }
 
@@ -194,6 +203,9 @@ private:
           append(" inertia %zu %.9g", cells_ + b + 1, m / mass_unit);
       line(" feedback %s", c_.carriers[0].feedback ? "yes" : "no");
       field();
+      if (surface_contact())
+        line("fix contact carriers hemo/contact range %.9g stiffness %.9g",
+             length(c_.contact.surface_range), c_.contact.surface_stiffness / units_.tension());
     }
     walls();
     fluid();
@@ -279,6 +291,11 @@ private:
       line("fix cells all hemo/cells %ld cells cells.csv dx_um %.12g dt_s %.12g follow %d",
            steps_in(*c_.output.cells, units_), dx_um, units_.dt, watch_every);
     }
+    if (c_.output.profiles)
+      line("fix profiles all hemo/profiles %ld profiles.csv series layer.csv dx_um %.12g dt_s "
+           "%.12g stress_pa %.12g average_from %.9g",
+           steps_in(*c_.output.profiles, units_), dx_um, units_.dt, units_.pressure(),
+           c_.analysis.average_from);
     append("fix watch all hemo/watch %d mach_max 0.3", watch_every);
     if (cells_ > 0) append(" cells cells");
     if (carriers_ > 0) append(" carriers carriers");

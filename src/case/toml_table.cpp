@@ -120,14 +120,6 @@ bool Table::is_word(const char* name, const char* word) const {
   return has(name) && node(name).value<std::string>() == std::optional<std::string>(word);
 }
 
-void Table::refuse_later(const char* name) const {
-  const Key& key = *find_key(schema_, name);
-  for (const char* word : key.later)
-    if (is_word(name, word))
-      fail(name, std::string("\"") + word +
-                     "\" is not available in this version; accepted: " + accepted(key));
-}
-
 void Table::refuse_if_given(const char* name, const std::string& problem) const {
   if (has(name)) fail(name, problem);
 }

@@ -50,8 +50,6 @@ public:
 
   /// True when the key holds this one of its words, e.g. "never".
   bool is_word(const char* name, const char* word) const;
-  /// A later version's word in a key that is otherwise a quantity.
-  void refuse_later(const char* name) const;
   /// A key that means nothing beside what other keys say.
   void refuse_if_given(const char* name, const std::string& problem) const;
 

@@ -237,6 +237,12 @@ AngleHemoMembrane::Surface AngleHemoMembrane::surface() const {
   return s;
 }
 
+std::vector<std::array<int, 3>> AngleHemoMembrane::triangle_atoms() const {
+  std::vector<std::array<int, 3>> corners;
+  for (const auto& t : triangles_) corners.push_back({t.i, t.j, t.k});
+  return corners;
+}
+
 void AngleHemoMembrane::write_restart(FILE* file) { coefficients_.write(file); }
 
 void AngleHemoMembrane::read_restart(FILE* file) {

@@ -7,6 +7,7 @@ AngleStyle(hemo/membrane,AngleHemoMembrane)
 #ifndef LMP_ANGLE_HEMO_MEMBRANE_H
 #define LMP_ANGLE_HEMO_MEMBRANE_H
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -54,6 +55,9 @@ public:
     std::vector<tagint> molecule;
   };
   Surface surface() const;
+
+  /// Local indices of the corners of this rank's triangles, valid until the next neighbour list.
+  std::vector<std::array<int, 3>> triangle_atoms() const;
 
 private:
   enum Column { Cq, q, k_a, A_t0, k_v, V_0, k_d, A_k0, columns };

@@ -11,9 +11,11 @@
 #include "lammps/dihedral_hemo_bend.h"
 #include "lammps/fix_hemo_advect.h"
 #include "lammps/fix_hemo_cells.h"
+#include "lammps/fix_hemo_contact.h"
 #include "lammps/fix_hemo_drag.h"
 #include "lammps/fix_hemo_field.h"
 #include "lammps/fix_hemo_fluid.h"
+#include "lammps/fix_hemo_profiles.h"
 #include "lammps/fix_hemo_progress.h"
 #include "lammps/fix_hemo_series.h"
 #include "lammps/fix_hemo_snapshot.h"
@@ -48,9 +50,11 @@ void register_styles(LAMMPS_NS::LAMMPS& lmp) {
 
   fixes["hemo/advect"] = new_fix<LAMMPS_NS::FixHemoAdvect>;
   fixes["hemo/cells"] = new_fix<LAMMPS_NS::FixHemoCells>;
+  fixes["hemo/contact"] = new_fix<LAMMPS_NS::FixHemoContact>;
   fixes["hemo/drag"] = new_fix<LAMMPS_NS::FixHemoDrag>;
   fixes["hemo/field"] = new_fix<LAMMPS_NS::FixHemoField>;
   fixes["hemo/fluid"] = new_fix<LAMMPS_NS::FixHemoFluid>;
+  fixes["hemo/profiles"] = new_fix<LAMMPS_NS::FixHemoProfiles>;
   fixes["hemo/progress"] = new_fix<LAMMPS_NS::FixHemoProgress>;
   fixes["hemo/series"] = new_fix<LAMMPS_NS::FixHemoSeries>;
   fixes["hemo/snapshot"] = new_fix<LAMMPS_NS::FixHemoSnapshot>;

@@ -92,11 +92,20 @@ public:
   virtual Vec3 momentum() = 0;
   /// Force spread on nodes of this rank in the last step (body force left out).
   virtual Vec3 node_force() const = 0;
-  /// Part of the spread force that went to walls, in the last step, on this rank.
-  Vec3 wall_share() const { return wall_share_; }
+  /// Part of the spread force that went to walls, in the last step, on this rank: to the low and
+  /// high plate (a vessel: all to the first), and to both.
+  const std::array<Vec3, 2>& wall_shares() const { return wall_shares_; }
+  Vec3 wall_share() const { return wall_shares_[0] + wall_shares_[1]; }
   /// Momentum given to the low and high plate (a vessel: all to the first) in the last step, on
   /// this rank. Exponential scheme: of a steady flow.
   const std::array<Vec3, 2>& wall_momentum() const { return wall_momentum_; }
+  /// The same of every step since the start. Populations stream in pairs of steps: what the first
+  /// of a pair gave is known, and booked, with the second.
+  struct WallBook {
+    std::array<Vec3, 2> momentum{};
+    long steps = 0;  ///< that are booked
+  };
+  const WallBook& wall_book() const { return wall_book_; }
 
 protected:
   FluidSolver(const Neighbourhood& at, const FluidParameters& parameters)
@@ -104,8 +113,9 @@ protected:
 
   Neighbourhood at_;
   FluidParameters parameters_;
-  Vec3 wall_share_;
+  std::array<Vec3, 2> wall_shares_{};
   std::array<Vec3, 2> wall_momentum_{};
+  WallBook wall_book_;
 };
 
 /// @throws Error when a block is thinner than the coupling halo (too many ranks along an axis), or

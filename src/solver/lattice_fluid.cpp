@@ -158,7 +158,7 @@ template <class Real> void LatticeFluid<Real>::start_exponential() {
 template <class Real> void LatticeFluid<Real>::clear_forces() {
   if (!forces_clear_) std::fill_n(force_storage_.data(), force_storage_.size(), Real(0));
   forces_clear_ = true;
-  wall_share_ = {};
+  wall_shares_ = {};
 }
 
 template <class Real>
@@ -213,7 +213,7 @@ template <class Real> void LatticeFluid<Real>::reduce_forces() {
   sum_forces_home();
   if (!has_vessel()) return;
   clear_force_halo();
-  wall_share_ += ghosts_.fold_force(force_);
+  wall_shares_[0] += ghosts_.fold_force(force_);
   sum_forces_home();
 }
 
@@ -223,7 +223,8 @@ template <class Real> void LatticeFluid<Real>::sum_forces_home() {
     const Faces at = faces(axis, n_layout_.halo);
     for (const auto& plate : plates_)
       if (plate.axis == axis)
-        wall_share_ += fluid::fold_mirror_force(plate, force_, n_layout_, at.whole);
+        wall_shares_[plate.side == fluid::Side::high] +=
+            fluid::fold_mirror_force(plate, force_, n_layout_, at.whole);
     halo_.start(axis, n_layout_, {force_, at.ghost_low}, {force_, at.last}, {force_, at.ghost_high},
                 {force_, at.first}, Combine::add);
     halo_.finish();
@@ -338,12 +339,12 @@ template <class Real> void LatticeFluid<Real>::step() {
   reduce_forces();
   const bool shift = next_ == fluid::Pass::shift;
   const int first_axis = wraps_x_ ? 1 : 0;  // the sweep keeps the ghosts along x
-  std::array<Vec3, 2> reflected{};
+  std::array<Vec3, 2> bounced{}, reflected{};
   plan_interior(shift);
   if (exponential()) exchange_sources(first_axis);
   if (shift) {
     send_populations_forward();
-    bounce_before_shift();
+    bounced = bounce_before_shift();
   }
   if (exponential()) reflected = reflect_source(1);
   sweep_shell();
@@ -351,8 +352,10 @@ template <class Real> void LatticeFluid<Real>::step() {
   if (shift) {
     send_populations_home();
     if (wraps_x_) wrap_rows_home();
+    book_wall_momentum(bounced, reflected_before_);
     book_wall_momentum(bounce_after_shift(), reflected);
   }
+  reflected_before_ = reflected;
   if (exponential()) std::swap(last_, present_);
   next_ = shift ? fluid::Pass::local : fluid::Pass::shift;
 }
@@ -364,8 +367,11 @@ void LatticeFluid<Real>::book_wall_momentum(const std::array<Vec3, 2>& bounced,
                                             const std::array<Vec3, 2>& reflected) {
   const double carried =
       exponential() ? fluid::ExponentialRates(parameters_.relaxation.tau).D : 0.0;
-  for (std::size_t side = 0; side < 2; ++side)
+  for (std::size_t side = 0; side < 2; ++side) {
     wall_momentum_[side] = (bounced[side] + reflected[side]) / (1 - carried);
+    wall_book_.momentum[side] += wall_momentum_[side];
+  }
+  ++wall_book_.steps;
 }
 
 /// Which rows can be swept behind messages: those farther from the block's faces along y and z than

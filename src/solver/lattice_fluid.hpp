@@ -99,6 +99,7 @@ private:
   fluid::WallGhosts<Real> ghosts_;
   bool wraps_x_ = false;  // this rank is its own neighbour along x: the sweep keeps those ghosts
   fluid::Pass next_ = fluid::Pass::local;
+  std::array<Vec3, 2> reflected_before_{};  // what the last step gave to walls by reflect_source
   bool forces_clear_ = true;
   NodeBox interior_;            // not yet swept in this step
   int interior_parts_ = 0;      // exchanges that remain to work behind

@@ -158,9 +158,22 @@ TEST_F(BadInput, Contradictions) {
           "case.toml:4:14: channel.shear_rate:", "plates");
 }
 
+TEST_F(BadInput, ContactsThatDoNotGoTogether) {
+  refused(changed("[run]", "[contact]\nsurface_range = \"0.2 um\"\n[run]"),
+          "case.toml:15:17: contact.surface_range:", "needs carrier_contact = \"surface\"");
+  refused(changed("[run]", "[contact]\ncarrier_contact = \"surface\"\ncarrier_sigma = \"0.4 um\"\n"
+                           "[run]"),
+          "case.toml:16:17: contact.carrier_sigma:", "is for carrier_contact = \"vertices\"");
+  refused(changed("[run]", "[contact]\ncarrier_contact = \"edges\"\n[run]"),
+          "case.toml:15:19: contact.carrier_contact:", "\"vertices\", \"surface\"");
+  refused(changed("[[carrier]]", "[[cell]]\nvertices = 642\ncount = 1\n[[carrier]]") +
+              "[contact]\ncarrier_contact = \"surface\"\nsurface_stiffness = \"1 N/m\"\n",
+          "case.toml:12:1: carrier:", "surface_stiffness");
+}
+
 TEST_F(BadInput, FeaturesOfLaterVersions) {
-  refused(changed("[run]", "[analysis]\nlayer = \"measured\"\n[run]"),
-          "case.toml:15:9: analysis.layer:", "not available");
+  refused(changed("[[carrier]]", "[[cell]]\nplacement = \"dense\"\n[[carrier]]"),
+          "case.toml:10:13: cell.placement:", "\"grow\"");
 }
 
 /// `good` with other lines in place of its shear rate, and no default gradient.
@@ -176,6 +189,25 @@ std::string channel_with(const std::string& lines) {
 }
 
 const std::string tube = "boundary = \"tube\"\ndiameter = \"7 um\"\nmean_velocity = \"1 mm/s\"\n";
+
+TEST_F(BadInput, LayersAndProfilesThatCannotBeMeasured) {
+  refused(changed("[run]", "[analysis]\nlayer = \"measured\"\n[run]"),
+          "case.toml:15:9: analysis.layer:", "needs plates and a [[cell]]");
+  refused(changed("[run]", "[analysis]\nlayer = \"thick\"\n[run]"),
+          "case.toml:15:9: analysis.layer:", "a length is expected");
+  refused(changed("[run]", "[analysis]\nlayer_run = \"0.1 s\"\n[run]"),
+          "case.toml:15:13: analysis.layer_run:", "needs layer = \"measured\"");
+  const std::string with_cell = "[[cell]]\nvertices = 642\ncount = 1\n[[carrier]]";
+  std::string text = changed("[[carrier]]", with_cell);
+  refused(text + "[analysis]\nlayer = \"measured\"\nlayer_run = \"0 s\"\n",
+          "case.toml:21:13: analysis.layer_run:", "above 0");
+  refused(changed("[run]", "[output]\nprofiles = \"1 um\"\n[run]"),
+          "case.toml:15:12: output.profiles:", "a time is expected");
+  text = channel_with("boundary = \"periodic\"\n");
+  text.replace(text.find("dx = \"0.5 um\""), 0, "dt = \"6 us\"\n");
+  refused(text + "[output]\nprofiles = \"1 ms\"\n",
+          "case.toml:18:12: output.profiles:", "needs boundary = \"plates\"");
+}
 
 TEST_F(BadInput, Tubes) {
   const auto with = [](const std::string& lines) { return channel_with(tube + lines); };
