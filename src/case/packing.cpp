@@ -32,7 +32,7 @@ constexpr double force_at_rest = 0.02;   // pN on a vertex: kBT over 0.2 um
 constexpr int relaxation_steps = 4000;   // at most
 constexpr double largest_change = 0.01;  // of area and volume
 constexpr double gap_range = 1;          // um, up to which gaps are measured
-// The pair repulsion of the flow run is three times its depth here.
+// The pair repulsion of the flow run is 4.4 epsilon here.
 constexpr double vertex_gap_over_sigma = 0.93;
 
 using Cells = std::vector<System::PlacedCell>;
@@ -44,6 +44,8 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 std::string placement_key(const Case& c) {
   return position(c, entry_path("cell", 0, c.cells.size()) + ".placement");
 }
+
+bool by_plates(const Case& c) { return c.cells[0].placement == Placement::compress; }
 
 std::vector<Vec3> scaled(std::span<const Vec3> x, double by) {
   std::vector<Vec3> y(x.begin(), x.end());
@@ -174,17 +176,15 @@ CellModel half_size(CellModel m) {
   return m;
 }
 
-/// Loose cells in a space stretched across the plates, and by how much.
-Cells scatter_in_stretched(const Case& c, const std::vector<CellModel>& meshes,
-                           const std::vector<int>& counts, double hematocrit, double& stretch) {
-  stretch = std::max(least_stretch, hematocrit / loose_hematocrit);
-  Case wide = c;
-  wide.channel.size[2] *= stretch;
-  return scatter_cells(wide, meshes, counts);
-}
-
-Cells scatter_small(const Case& c, const std::vector<CellModel>& meshes,
-                    const std::vector<int>& counts) {
+/// Loose cells: in a space stretched across the plates, or, when they are to grow, of half the
+/// size.
+Cells scatter(const Case& c, const std::vector<CellModel>& meshes, const std::vector<int>& counts,
+              double stretch) {
+  if (by_plates(c)) {
+    Case wide = c;
+    wide.channel.size[2] *= stretch;
+    return scatter_cells(wide, meshes, counts);
+  }
   std::vector<CellModel> small;
   for (const CellModel& m : meshes) small.push_back(half_size(m));
   return scatter_cells(c, small, counts);
@@ -200,11 +200,20 @@ Cells carry(const Cells& cells, const std::vector<CellModel>& from,
   return fine;
 }
 
-double hematocrit_of(const Case& c, const std::vector<CellModel>& models,
-                     const std::vector<int>& counts) {
-  double volume = 0;
-  for (std::size_t m = 0; m < models.size(); ++m) volume += counts[m] * models[m].volume;
-  return volume / fluid_volume(c);
+/// How many cells of each entry, and what hematocrit they make.
+struct Asked {
+  std::vector<int> counts;
+  double hematocrit = 0;
+  int cells() const { return std::accumulate(counts.begin(), counts.end(), 0); }
+};
+
+Asked asked_of(const Case& c, const std::vector<CellModel>& models) {
+  Asked asked;
+  for (std::size_t m = 0; m < models.size(); ++m) {
+    asked.counts.push_back(cell_count(c, c.cells[m], models[m]));
+    asked.hematocrit += asked.counts.back() * models[m].volume / fluid_volume(c);
+  }
+  return asked;
 }
 
 std::string percent(double share) {
@@ -295,6 +304,63 @@ PackingReport check_cells(const Case& c, const std::vector<CellModel>& models, c
   return r;
 }
 
+/// The number of cells a hematocrit is rounded to may exceed it by half a cell.
+void refuse_hopeless(const Case& c, const std::vector<CellModel>& models, const Asked& asked) {
+  double largest = 0;
+  for (const CellModel& m : models) largest = std::max(largest, m.volume);
+  if (asked.hematocrit <= largest_hematocrit + 0.5 * largest / fluid_volume(c)) return;
+  char text[96];
+  std::snprintf(text, sizeof text, "%d cells make a hematocrit of %.3g; accepted: at most %g",
+                asked.cells(), asked.hematocrit, largest_hematocrit);
+  throw Error(placement_key(c) + ": " + text);
+}
+
+bool are_coarser(const std::vector<CellModel>& meshes, const std::vector<CellModel>& models) {
+  return !std::equal(
+      meshes.begin(), meshes.end(), models.begin(),
+      [](const CellModel& a, const CellModel& b) { return a.mesh.x.size() == b.mesh.x.size(); });
+}
+
+/// Loose cells driven together or grown, relaxed, and relaxed again with the case's own meshes.
+/// @param stretch  of the space in which they lie, over the channel's height
+PackedCells pack(const Case& c, const std::vector<CellModel>& models,
+                 const std::vector<CellModel>& meshes, Cells loose, double stretch) {
+  const double height = c.channel.size[2] / um;
+  PackedCells packed;
+  packed.first = std::move(loose);
+  Packer packer(c, meshes, models, stretch * height);
+  if (by_plates(c)) {
+    packer.add(packed.first);
+    packer.compress(height);
+  } else {
+    packer.start_small();
+    packer.add(packed.first);
+    packer.grow();
+  }
+  packer.relax();
+  packed.cells = packer.cells();
+  long steps = packer.steps();
+  double force = packer.largest_force();
+  if (are_coarser(meshes, models)) {
+    Packer fine(c, models, models, height);
+    fine.add(carry(packed.cells, meshes, models));
+    fine.relax();
+    packed.cells = fine.cells();
+    steps += fine.steps();
+    force = fine.largest_force();
+  }
+  packed.report = check_cells(c, models, packed.cells);
+  packed.report.steps = steps;
+  packed.report.largest_force = force;
+  return packed;
+}
+
+void refuse_squeezed(const PackingReport& r) {
+  if (r.area_change <= largest_change && r.volume_change <= largest_change) return;
+  throw Error("cells are left squeezed, by up to " + percent(r.area_change) +
+              " of their area and " + percent(r.volume_change) + " of their volume");
+}
+
 }  // namespace
 
 PackingReport check_packed(const Case& c, const std::vector<CellModel>& models,
@@ -311,70 +377,25 @@ PackingReport check_packed(const Case& c, const std::vector<CellModel>& models,
 
 PackedCells pack_cells(const Case& c, const std::vector<CellModel>& models) {
   const auto start = std::chrono::steady_clock::now();
-  std::vector<int> counts;
-  for (std::size_t m = 0; m < models.size(); ++m)
-    counts.push_back(cell_count(c, c.cells[m], models[m]));
-  const Case quick = coarser(c);
-  const auto meshes = cell_models(quick);
-  const double height = c.channel.size[2] / um, hematocrit = hematocrit_of(c, models, counts);
-  const bool by_plates = c.cells[0].placement == Placement::compress;
-
-  const std::string cells =
-      std::to_string(std::accumulate(counts.begin(), counts.end(), 0)) + " cells";
-  if (hematocrit > largest_hematocrit) {
-    char text[96];
-    std::snprintf(text, sizeof text, " make a hematocrit of %.3g; accepted: at most %g", hematocrit,
-                  largest_hematocrit);
-    throw Error(placement_key(c) + ": " + cells + text);
-  }
-
+  const Asked asked = asked_of(c, models);
+  refuse_hopeless(c, models, asked);
+  const auto meshes = cell_models(coarser(c));
+  const double stretch =
+      by_plates(c) ? std::max(least_stretch, asked.hematocrit / loose_hematocrit) : 1;
+  Cells loose = scatter(c, meshes, asked.counts, stretch);
   PackedCells packed;
-  if (std::all_of(counts.begin(), counts.end(), [](int n) { return n == 0; })) {
-    packed.report = check_cells(c, models, {});
-    packed.report.method = by_plates ? "compress" : "grow";
-    return packed;
-  }
-  double stretch = 1;
-  packed.first = by_plates ? scatter_in_stretched(c, meshes, counts, hematocrit, stretch)
-                           : scatter_small(c, meshes, counts);
-  PackingReport made;
   try {
-    Packer packer(c, meshes, models, stretch * height);
-    if (by_plates) {
-      packer.add(packed.first);
-      packer.compress(height);
-    } else {
-      packer.start_small();
-      packer.add(packed.first);
-      packer.grow();
-    }
-    packer.relax();
-    packed.cells = packer.cells();
-    made.steps = packer.steps();
-    made.largest_force = packer.largest_force();
-    if (std::any_of(c.cells.begin(), c.cells.end(), [&](const Cell& cell) {
-          return !cell.surface && cell.vertices > packing_vertices;
-        })) {
-      Packer fine(c, models, models, height);
-      fine.add(carry(packed.cells, meshes, models));
-      fine.relax();
-      packed.cells = fine.cells();
-      made.steps += fine.steps();
-      made.largest_force = fine.largest_force();
-    }
-    packed.report = check_cells(c, models, packed.cells);
-    if (packed.report.area_change > largest_change || packed.report.volume_change > largest_change)
-      throw Error("cells are left squeezed, by up to " + percent(packed.report.area_change) +
-                  " of their area and " + percent(packed.report.volume_change) +
-                  " of their volume");
+    if (asked.cells() > 0)
+      packed = pack(c, models, meshes, std::move(loose), stretch);
+    else
+      packed.report = check_cells(c, models, {});
+    refuse_squeezed(packed.report);
   } catch (const Error& e) {
-    throw Error(placement_key(c) + ": packing " + cells + ", a hematocrit of " +
-                percent(hematocrit) + ", failed: " + e.what() +
+    throw Error(placement_key(c) + ": packing " + std::to_string(asked.cells()) +
+                " cells, a hematocrit of " + percent(asked.hematocrit) + ", failed: " + e.what() +
                 "; accepted: fewer cells, or another seed");
   }
-  packed.report.method = by_plates ? "compress" : "grow";
-  packed.report.steps = made.steps;
-  packed.report.largest_force = made.largest_force;
+  packed.report.method = by_plates(c) ? "compress" : "grow";
   packed.report.seconds = seconds_since(start);
   return packed;
 }

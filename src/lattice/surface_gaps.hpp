@@ -25,7 +25,7 @@ struct SurfaceGaps {
 };
 
 /// Compare every triangle with those near it. Crossings are decided exactly, for corners rounded to
-/// 2^-39 of the largest triangle (triangle_crossing.hpp).
+/// 2^-38 of the largest triangle's radius (triangle_crossing.hpp).
 /// @param range  up to which gaps are looked for
 /// Cost: some ten microseconds a triangle at a hematocrit of 0.45.
 SurfaceGaps surface_gaps(std::span<const SurfaceView> surfaces, const PeriodicBox& box,

@@ -10,7 +10,7 @@ namespace hemomag::solver {
 namespace {
 
 constexpr double largest_move = 0.03;  // of a vertex in a step, of the contacts' 0.2 um
-// The kernels of the least instruction set: the same bits everywhere.
+// The kernels of the least instruction set: the same bits on every processor.
 constexpr SimdLevel level = SimdLevel::sse2;
 
 // FIRE's constants, as published.

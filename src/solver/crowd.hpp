@@ -24,7 +24,7 @@ struct CrowdModel {
 
 /// Many whole cells without a fluid, on one processor: their membranes, their contacts and walls.
 /// For making starting states, not for the flow. Vertices have mass one, so that time is in the
-/// units that follow. The same calls give the same bits on every machine with SSE2.
+/// units that follow. The same calls give the same bits whatever instruction set the processor has.
 class Crowd {
 public:
   Crowd(std::vector<CrowdModel> models, const lattice::PeriodicBox& box,
