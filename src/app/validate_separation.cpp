@@ -116,9 +116,9 @@ std::string outer_vertices(const char* name, const std::vector<Vec3>& x, double 
   std::sort(order.begin(), order.end(),
             [&](std::size_t a, std::size_t b) { return sense * x[a].z > sense * x[b].z; });
   const auto count = std::lround(pulled_share * static_cast<double>(x.size()));
-  std::string line = std::string("group ") + name + " id";
+  std::string line = std::string("group ").append(name).append(" id");
   for (long k = 0; k < count; ++k)
-    line += " " + std::to_string(first_tag + order[static_cast<std::size_t>(k)]);
+    line.append(" ").append(std::to_string(first_tag + order[static_cast<std::size_t>(k)]));
   return line;
 }
 
