@@ -146,4 +146,18 @@ inline double critical_frequency(int N) {
   throw Error("no critical frequency for this number of carriers");
 }
 
+/// Apparent viscosity [mPa s] of whole blood at 37 C by shear rate [1/s] and hematocrit:
+/// Wells, Merrill, J. Clin. Invest. 41, 1591 (1962). Their blood aggregates.
+inline constexpr std::array<double, 5> wells_merrill_hematocrit{0.16, 0.33, 0.43, 0.57, 0.70};
+struct WellsMerrillRow {
+  double shear_rate;
+  std::array<double, 5> viscosity;
+};
+inline constexpr std::array<WellsMerrillRow, 4> wells_merrill_1962{{
+    {12.3, {2.19, 6.91, 11.11, 16.91, 21.96}},
+    {24.4, {1.88, 5.63, 9.08, 12.49, 16.40}},
+    {62, {1.47, 3.69, 6.81, 8.55, 11.14}},
+    {123.6, {1.35, 3.06, 6.25, 7.80, 9.78}},
+}};
+
 }  // namespace hemomag::app

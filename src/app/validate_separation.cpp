@@ -232,7 +232,7 @@ void draw(const std::string& out, const std::vector<Pulled>& runs) {
   const auto scene = [&](const Pulled& p, const std::vector<Vec3>& x, const char* when) {
     const auto triangles = case_::cell_models(two_cells(p.setting))[0].mesh.triangles;
     const std::size_t n = x.size() / 2;
-    io::Scene s{label(p.setting) + ", " + when, {}, {}};
+    io::Scene s{label(p.setting).append(", ").append(when), {}, {}};
     for (std::size_t cell = 0; cell < 2; ++cell) {
       io::Body body;
       for (std::size_t v = 0; v < n; ++v) {

@@ -45,10 +45,10 @@ void print(const Finding& f, bool json) {
 const std::vector<Validation>& validations() {
   static const std::vector<Validation> all = [] {
     auto list = fluid_validations();
-    for (auto* more :
-         {curved_validations, moduli_validations, stretch_validations, cell_validations,
-          shear_validations, packing_validations, separation_validations, no_leak_validations,
-          drift_validations, dipole_validations, chain_validations, field_validations})
+    for (auto* more : {curved_validations, moduli_validations, stretch_validations,
+                       cell_validations, shear_validations, packing_validations,
+                       separation_validations, no_leak_validations, layer_validations,
+                       drift_validations, dipole_validations, chain_validations, field_validations})
       for (auto& v : more()) list.push_back(std::move(v));
     return list;
   }();

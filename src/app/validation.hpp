@@ -74,6 +74,8 @@ std::vector<Validation> packing_validations();
 std::vector<Validation> separation_validations();
 /// Of contact between carriers and cells (validate_no_leak.cpp).
 std::vector<Validation> no_leak_validations();
+/// Of sheared blood (validate_layer.cpp).
+std::vector<Validation> layer_validations();
 
 /// Run the named ones (all if none) and print them, as a table or as one JSON object a line. Rank 0
 /// works alone.
