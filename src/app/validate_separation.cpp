@@ -206,9 +206,9 @@ std::string label(const Setting& s) {
 }
 
 void draw(const std::string& out, const std::vector<Pulled>& runs) {
-  const char* colours[] = {"#1f77b4", "#c0392b", "#2e8b57", "#8e44ad"};
+  const char* colours[] = {"#1f77b4", "#c0392b", "#2e8b57"};  // by D0
   io::Diagram diagram{"two cells pulled apart with 7 pN",
-                      "time (mass over friction of a vertex: 24)",
+                      "time in which a free cell drifts 0.5 nm",
                       "distance of the centres (um)",
                       {},
                       {},
@@ -232,7 +232,9 @@ void draw(const std::string& out, const std::vector<Pulled>& runs) {
   const auto scene = [&](const Pulled& p, const std::vector<Vec3>& x, const char* when) {
     const auto triangles = case_::cell_models(two_cells(p.setting))[0].mesh.triangles;
     const std::size_t n = x.size() / 2;
-    io::Scene s{label(p.setting).append(", ").append(when), {}, {}};
+    char title[64];
+    std::snprintf(title, sizeof title, "%.3g kBT, %s", p.setting.depth, when);
+    io::Scene s{title, {}, {}};
     for (std::size_t cell = 0; cell < 2; ++cell) {
       io::Body body;
       for (std::size_t v = 0; v < n; ++v) {
@@ -251,6 +253,8 @@ void draw(const std::string& out, const std::vector<Pulled>& runs) {
     scene(p, p.last, p.apart() ? "apart" : "adhering");
   }
   io::View view;
+  view.tilt = 10;
+  view.scale = 20;
   view.bar = 5;
   view.bar_label = "5 um";
   io::replace_file(out + "/separation_cells.svg", io::draw_scenes(scenes, view));
@@ -262,21 +266,30 @@ std::vector<Finding> separation(const std::string& out) {
   std::vector<Finding> found;
   std::vector<Pulled> runs;
   for (const int vertices : {642, 3286})
-    for (const double depth : {0.03, 0.04}) {
+    for (const double depth : {0.03, 0.04, 0.05}) {
       runs.push_back(pull(out, {depth, vertices}));
+      if (depth == 0.05) continue;  // for the figure
       char quantity[96];
       std::snprintf(quantity, sizeof quantity, "D0 %.2f kBT, %d vertices: pairs that come apart",
                     depth, vertices);
-      // The coarser mesh is printed: its D0 is rescaled.
       Finding f{name, quantity, double(runs.back().apart()), double(depth < 0.035),
                 0,    "",       "Ye, Shen & Li 2018, 3.1.3"};
-      if (vertices == 642) f.kind = Finding::Kind::printed;
+      // The coarser mesh has its D0 rescaled. The finer one lets go at 0.04 too, slowly: its
+      // threshold is 0.041, and what the paper's pair stood on or for how long is not given.
+      if (vertices == 642)
+        f.kind = Finding::Kind::printed;
+      else if (depth == 0.04)
+        f.kind = Finding::Kind::shortfall;
       found.push_back(f);
     }
-  constexpr double coarse_scale = (3286. / 642) * (3286. / 642);
-  const double coarse = threshold(out, 642, 0.01, 0.1, 0.001);
+  constexpr double coarse_scale = (3286. / 642) * (3286. / 642), width = 0.00125;
+  const double coarse = threshold(out, 642, 0.03, 0.05, width);
+  const double fine = threshold(out, 3286, 0.03, 0.05, width);
+  const char* paper = "Ye, Shen & Li 2018: 0.03 to 0.04";
+  found.push_back(
+      printed(name, "D0 at which 3286-vertex pairs begin to hold", fine, 0.035, "kBT", paper));
   found.push_back(printed(name, "D0 at which 642-vertex pairs begin to hold, at 3286 vertices",
-                          coarse, 0.035, "kBT", "Ye, Shen & Li 2018: 0.03 to 0.04"));
+                          coarse, 0.035, "kBT", paper));
   found.push_back(printed(name, "the same per pair of vertices of that mesh", coarse * coarse_scale,
                           0.035 * coarse_scale, "kBT", "rescaled, (3286/642)^2"));
   draw(out, runs);
