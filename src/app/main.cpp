@@ -13,9 +13,10 @@
 #include "case/case_file.hpp"
 #include "case/run.hpp"
 #include "lammps/host.hpp"
+#include "lammps/signals.hpp"
 
 // The command line: docs/command_line.md. Exit codes: 0 done, 1 a LAMMPS script failed, 2 bad
-// input, 3 unstable, 4 file trouble.
+// input, 3 unstable, 4 file trouble, 128 + n stopped by signal n after a checkpoint.
 
 namespace {
 
@@ -47,7 +48,8 @@ int check(const case_::Case& c) {
 int lmp(const std::vector<std::string>& arguments) {
   hemomag::lammps::Host host(arguments, MPI_COMM_WORLD);
   host.script();
-  return 0;
+  // A run that a signal stopped after a checkpoint ends as the shell expects.
+  return hemomag::lammps::stopped_by() ? 128 + hemomag::lammps::stopped_by() : 0;
 }
 
 int not_available(const char* what) {
@@ -78,7 +80,7 @@ int parse_and_run(int argc, char** argv) {
   }
   run->add_option("--out", out, "run directory (default: out/NAME)");
   run->add_flag("--force", force, "replace an existing run directory");
-  run->add_flag("--resume", resume, "go on from the last checkpoint (not in this version)");
+  run->add_flag("--resume", resume, "go on from the last checkpoint of the run directory");
   app.add_subcommand("lmp", "LAMMPS with the hemo styles: hemomag lmp -in FILE")->prefix_command();
   const std::vector<std::pair<const char*, const char*>> later = {
       {"pack", "only the initial state"},
@@ -106,13 +108,18 @@ int parse_and_run(int argc, char** argv) {
   }
   for (const auto& [name, help] : later)
     if (app.got_subcommand(name)) return not_available(name);
-  if (resume) return not_available("--resume");
+  if (resume && force) {
+    if (rank() == 0)
+      std::fprintf(stderr, "--resume: goes on with a run, which --force would remove; accepted: one "
+                           "of them\n");
+    return 2;
+  }
   if (app.got_subcommand("validate")) return hemomag::app::validate(names, json, figures);
   if (app.got_subcommand("bench")) return hemomag::app::bench(names, json);
   if (app.got_subcommand("check")) return with_case(path, overrides, check);
   if (out.empty()) out = "out/" + std::filesystem::path(path).stem().string();
   return with_case(path, overrides, [&](const case_::Case& c) {
-    return case_::run_case(c, {out, force}, MPI_COMM_WORLD);
+    return case_::run_case(c, {out, force, resume}, MPI_COMM_WORLD);
   });
 }
 

@@ -7,20 +7,26 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <memory>
 
 #include <nlohmann/json.hpp>
 
 #include "case/break_off.hpp"
 #include "case/card.hpp"
+#include "case/case_file.hpp"
 #include "case/cells_data.hpp"
 #include "case/external_field.hpp"
 #include "case/lattice_units.hpp"
 #include "case/script.hpp"
+#include "case/run_lock.hpp"
+#include "case/same_case.hpp"
+#include "io/checkpoint_directory.hpp"
 #include "io/files.hpp"
 #include "lammps/compat.hpp"
 #include "lammps/fix_hemo_series.h"
 #include "lammps/fix_hemo_watch.h"
 #include "lammps/host.hpp"
+#include "lammps/signals.hpp"
 
 namespace hemomag::case_ {
 namespace {
@@ -48,6 +54,23 @@ std::string whole_file(const std::string& path) {
   return content;
 }
 
+/// A file that a case refers to, and the name of its copy in the run directory.
+struct CaseFile {
+  std::string key, path, copy;
+};
+
+std::vector<CaseFile> files_of(const Case& c) {
+  std::vector<CaseFile> files;
+  if (const std::string copy = geometry_copy(c); !copy.empty())
+    files.push_back({"channel.geometry", c.channel.geometry, copy});
+  for (std::size_t k = 0; k < c.cells.size(); ++k)
+    if (const std::string copy = mesh_copy(c, k); !copy.empty())
+      files.push_back({entry_path("cell", k, c.cells.size()) + ".mesh", c.cells[k].mesh, copy});
+  for (const MagneticSource& source : c.magnetic.sources)
+    if (source.table) files.push_back({"magnetic.file", source.file, table_copy(source)});
+  return files;
+}
+
 /// The card and the starting state; nothing is written. Rank 0 only.
 int prepare(const Case& c, const RunOptions& options, Files& files) {
   const auto models = cell_models(c);
@@ -64,26 +87,51 @@ int prepare(const Case& c, const RunOptions& options, Files& files) {
   files["case.toml"] = c.text;
   files["cells.data"] = cells_data(c, system);
   files["in.lammps"] = lammps_script(c, system);
-  if (const std::string copy = geometry_copy(c); !copy.empty())
-    files[copy] = whole_file(c.channel.geometry);
-  for (std::size_t k = 0; k < c.cells.size(); ++k)
-    if (const std::string copy = mesh_copy(c, k); !copy.empty())
-      files[copy] = whole_file(c.cells[k].mesh);
-  for (const MagneticSource& s : c.magnetic.sources)
-    if (s.table) files[table_copy(s)] = whole_file(s.file);
+  for (const auto& file : files_of(c)) files[file.copy] = whole_file(file.path);
   return done;
 }
 
+/// Everything that was there goes, but for the lock that this run holds.
 void write_directory(const RunOptions& options, const Files& files) {
-  std::filesystem::remove_all(options.out);
-  io::make_directory(options.out);
+  for (const auto& entry : std::filesystem::directory_iterator(options.out))
+    if (entry.path().filename() != RunLock::name) std::filesystem::remove_all(entry.path());
   for (const auto& [name, content] : files) io::replace_file(options.out + "/" + name, content);
+}
+
+/// Where a run goes on.
+struct Resumption {
+  std::string checkpoint;  ///< directory, seen from that of the run
+  io::CheckpointRecord record;
+};
+
+/// A file of the case must be that of which the run directory keeps a copy.
+void require_same_file(const Case& c, const std::string& key, const std::string& path,
+                       const std::string& copy) {
+  if (whole_file(path) != whole_file(copy))
+    throw Error(position(c, key) + ": " + path + " differs from the run's copy " + copy +
+                "; accepted with --resume: the file the run was started with");
+}
+
+/// Whether the case can go on from a checkpoint of a run directory. @throws Error with the key that
+/// differs
+void require_same_run(const Case& c, const std::string& out, const Resumption& from) {
+  require_same_case(c, whole_file(out + "/" + from.checkpoint + "/case.toml"));
+  for (const auto& file : files_of(c)) require_same_file(c, file.key, file.path, out + "/" + file.copy);
+  const Case was = read_case(out + "/case.toml", {});
+  if (was.analysis.average_from != c.analysis.average_from)
+    throw Error(position(c, "run.time") +
+                ": moves the default of analysis.average_from, from which the run has averaged; "
+                "accepted: analysis.average_from given");
+  if (from.record.step > steps(c))
+    throw Error(position(c, c.run.time ? "run.time" : "run.steps") + ": " +
+                std::to_string(steps(c)) + " steps end before the checkpoint, which is of step " +
+                std::to_string(from.record.step) + "; accepted: a longer run");
 }
 
 /// Run the script of the directory, with a progress line before its `run`.
 void execute(lammps::Host& host, const std::string& path, double dt) {
   std::ifstream script(path);
-  if (!script) throw Error(path + ": cannot be read");
+  if (!script) throw FileError(path + ": cannot be read");
   for (std::string line; std::getline(script, line);) {
     if (line.rfind("run ", 0) == 0)
       host.command("fix progress all hemo/progress dt_s " + std::to_string(dt * 1e6) + "e-6");
@@ -113,6 +161,8 @@ nlohmann::json summary(const Case& c, lammps::Host& host, double wall_s) {
       {"carriers_end", seen.carriers_end},
       {"carriers_inside_max", seen.carriers_inside_max},
       {"mach_max", seen.mach_max},
+      {"displacement_max_nodes", seen.displacement_max},
+      {"stretch_max", seen.stretch_max},
       {"area_drift_max", seen.area_drift_max},
       {"volume_drift_max", seen.volume_drift_max}};
 }
@@ -128,30 +178,110 @@ void print_summary(const nlohmann::json& s, const std::string& out) {
   std::printf("output in %s\n", out.c_str());
 }
 
+/// Rank 0's work before a run, an exit code for all: bad input is what the user can mend.
+template <class Work> int agreed(MPI_Comm comm, Work work) {
+  int rank = 0, code = done;
+  MPI_Comm_rank(comm, &rank);
+  if (rank == 0) {
+    try {
+      code = work();
+    } catch (const FileError& e) {
+      code = fail(e.what(), file_trouble);
+    } catch (const Error& e) {
+      std::fprintf(stderr, "%s\n", e.what());
+      code = bad_input;
+    } catch (const std::exception& e) {
+      code = fail(e.what(), file_trouble);
+    }
+  }
+  return agree(code, comm);
+}
+
+/// A new run directory. Rank 0 only.
+int start(const Case& c, const RunOptions& options, std::unique_ptr<RunLock>& lock) {
+  Files files;
+  if (const int code = prepare(c, options, files); code != done) return code;
+  std::printf("%s\n", c.title.c_str());
+  io::make_directory(options.out);
+  lock = std::make_unique<RunLock>(options.out);
+  write_directory(options, files);
+  return done;
+}
+
+/// The last whole checkpoint of the run directory, found by all ranks.
+int find(const RunOptions& options, MPI_Comm comm, Resumption& from) {
+  try {
+    const std::string directory = options.out + "/" + checkpoint_name;
+    const auto found = io::find_checkpoint(comm, directory);
+    return agreed(comm, [&] {
+      for (const auto& reason : found.refused)
+        std::fprintf(stderr, "hemomag: not used: %s\n", reason.c_str());
+      if (found.directory.empty())
+        return fail("--resume: " + options.out +
+                        " holds no whole checkpoint; accepted: the directory of a run that wrote "
+                        "one, or a new run with --force",
+                    bad_input);
+      from = {io::name_of(found.directory), found.record};
+      return done;
+    });
+  } catch (const FileError& e) {
+    return agreed(comm, [&] { return fail(e.what(), file_trouble); });
+  }
+}
+
+/// Make a run directory ready to go on. Rank 0 only.
+int go_on(const Case& c, const RunOptions& options, const Resumption& from) {
+  require_same_run(c, options.out, from);
+  System system;
+  system.models = cell_models(c);
+  io::replace_file(options.out + "/case.toml", c.text);
+  io::replace_file(options.out + "/resume.lammps",
+                   resumed_script(c, system, from.checkpoint, from.record.wall_s));
+  std::printf("%s\ngoing on from step %ld\n", c.title.c_str(), from.record.step);
+  return done;
+}
+
+/// Run the script in the run directory. @return exit code
+int execute(const Case& c, const RunOptions& options, double wall_before_s, MPI_Comm comm) {
+  int rank = 0;
+  MPI_Comm_rank(comm, &rank);
+  lammps::Host host({"-screen", "none", "-log", "none"}, comm);
+  const double start = MPI_Wtime();
+  host.command(options.resume ? "log log.lammps append" : "log log.lammps");
+  execute(host, options.resume ? "resume.lammps" : "in.lammps", lattice_units(c).dt);
+  if (const int signal = lammps::stopped_by(); signal != 0) {
+    if (rank == 0)
+      std::printf("stopped by a signal after a checkpoint; --resume goes on from it\n");
+    return 128 + signal;
+  }
+  const auto results = summary(c, host, wall_before_s + MPI_Wtime() - start);
+  if (rank == 0) {
+    io::replace_file("summary.json", results.dump(2) + "\n");
+    print_summary(results, options.out);
+  }
+  return done;
+}
+
 }  // namespace
 
 int run_case(const Case& c, const RunOptions& options, MPI_Comm comm) {
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
-  int code = done;
-  if (rank == 0) {
-    try {
-      Files files;
-      code = prepare(c, options, files);
-      if (code == done) {
-        std::printf("%s\n", c.title.c_str());
-        try {
-          write_directory(options, files);
-        } catch (const std::exception& e) {
-          code = fail(e.what(), file_trouble);
-        }
-      }
-    } catch (const Error& e) {
-      std::fprintf(stderr, "%s\n", e.what());
-      code = bad_input;
-    }
+  std::unique_ptr<RunLock> lock;  // rank 0's
+  Resumption from;
+  int code = agreed(comm, [&] {
+    if (!options.resume) return start(c, options, lock);
+    if (!std::filesystem::is_directory(options.out))
+      return fail("--resume: there is no run directory " + options.out +
+                      "; accepted: --out DIR of a run",
+                  bad_input);
+    lock = std::make_unique<RunLock>(options.out);
+    return done;
+  });
+  if (code == done && options.resume) {
+    code = find(options, comm, from);
+    if (code == done) code = agreed(comm, [&] { return go_on(c, options, from); });
   }
-  code = agree(code, comm);
   if (code != done) return code;
 
   // From here on LAMMPS itself ends the process when something goes wrong (break_off.hpp).
@@ -159,15 +289,7 @@ int run_case(const Case& c, const RunOptions& options, MPI_Comm comm) {
   std::filesystem::current_path(options.out);
   try {
     const RunInProgress running(rank);
-    lammps::Host host({"-screen", "none", "-log", "log.lammps"}, comm);
-    const double start = MPI_Wtime();
-    execute(host, "in.lammps", lattice_units(c).dt);
-    const double wall_s = MPI_Wtime() - start;
-    const auto results = summary(c, host, wall_s);
-    if (rank == 0) {
-      io::replace_file("summary.json", results.dump(2) + "\n");
-      print_summary(results, options.out);
-    }
+    code = execute(c, options, from.record.wall_s, comm);
   } catch (const std::exception& e) {
     code = rank == 0 ? fail(e.what(), file_trouble) : file_trouble;
   }

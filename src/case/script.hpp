@@ -10,6 +10,13 @@ namespace hemomag::case_ {
 /// relative to the run directory.
 std::string lammps_script(const Case& c, const System& system);
 
+/// The same run from a checkpoint on: atoms and the state of every fix from there. Of the case it
+/// needs the models alone.
+/// @param checkpoint  directory of the checkpoint
+/// @param wall_s      what the run has taken until then
+std::string resumed_script(const Case& c, const System& models, const std::string& checkpoint,
+                           double wall_s);
+
 /// Steepness of the soft carrier-carrier repulsion.
 inline constexpr double soft_kappa = 30;
 
