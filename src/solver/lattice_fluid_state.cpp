@@ -5,8 +5,8 @@
 #include "solver/lattice_fluid.hpp"
 
 // What the next step needs, to and from a file. Datasets: f00 to f18 (the populations as they will be
-// collided next), ux, uy, uz, and of the exponential scheme the numbers s0, s1, ... of the last
-// step's sources. Halos are not stored: they are exchanged anew.
+// collided next), ux, uy, uz, and of the exponential scheme the numbers of the sources of the last
+// step, s00 to s09, and of the one before it, t00 to t09. Halos are not stored: they are exchanged anew.
 
 namespace hemomag::solver {
 namespace {
@@ -53,9 +53,12 @@ template <class Real> void LatticeFluid<Real>::save(const std::string& path) {
     write(velocity_names[d],
           [&](int x, int y, int z) { return u_[d][n_layout_.index(x, y, z)]; });
   if (exponential())
-    for (std::size_t k = 0; k < fluid::sources; ++k)
+    for (std::size_t k = 0; k < fluid::sources; ++k) {
       write(numbered('s', k),
             [&](int x, int y, int z) { return last_[k][f_layout_.index(x, y, z)]; });
+      write(numbered('t', k),
+            [&](int x, int y, int z) { return present_[k][f_layout_.index(x, y, z)]; });
+    }
   file.close();
 }
 
@@ -73,7 +76,10 @@ template <class Real> void LatticeFluid<Real>::load(const std::string& path) {
   next_ = fluid::Pass::local;
   exchange_velocity(0);
   if (!exponential()) return;
-  for (std::size_t k = 0; k < fluid::sources; ++k) read(numbered('s', k), last_[k], f_layout_);
+  for (std::size_t k = 0; k < fluid::sources; ++k) {
+    read(numbered('s', k), last_[k], f_layout_);
+    read(numbered('t', k), present_[k], f_layout_);
+  }
   exchange_sources(0);
 }
 
