@@ -51,6 +51,7 @@ void at_exit() {
 }  // namespace
 
 RunInProgress::RunInProgress(int rank) {
+  lammps::ending();  // made before at_exit is registered, it is still there when that is called
   static const int registered = std::atexit(at_exit);
   static_cast<void>(registered);
   this_rank = rank;

@@ -90,14 +90,28 @@ void verify(MPI_Comm comm, const Candidate& c) {
 
 std::string unfinished(const std::string& directory) { return directory + ".new"; }
 
-void begin_checkpoint(MPI_Comm comm, const std::string& directory) {
+void begin_checkpoint(MPI_Comm comm, const std::string& directory, double bytes) {
   on_rank_0(comm, [&] {
     // A whole one may bear this name: the run stopped just before the last rename. It is kept.
     if (!fs::exists(directory) && fs::exists(unfinished(directory) + "/" + manifest))
       fs::rename(unfinished(directory), directory);
     fs::remove_all(unfinished(directory));
     make_directory(unfinished(directory));
+    const double room = static_cast<double>(fs::space(unfinished(directory)).available);
+    if (room >= bytes) return;
+    fs::remove_all(unfinished(directory));
+    char numbers[100];
+    std::snprintf(numbers, sizeof numbers, "%.1f MB are needed, the disk has room for %.1f MB",
+                  bytes / 1e6, room / 1e6);
+    throw FileError(unfinished(directory) + ": " + numbers);
   });
+}
+
+void give_up_checkpoint(MPI_Comm comm, const std::string& directory) {
+  int rank = 0;
+  MPI_Comm_rank(comm, &rank);
+  std::error_code ignored;
+  if (rank == 0) fs::remove_all(unfinished(directory), ignored);
 }
 
 void finish_checkpoint(MPI_Comm comm, const std::string& directory,

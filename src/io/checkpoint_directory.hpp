@@ -26,7 +26,11 @@ struct CheckpointRecord {
 std::string unfinished(const std::string& directory);
 
 /// Make an empty DIR.new.
-void begin_checkpoint(MPI_Comm comm, const std::string& directory);
+/// @param bytes  that will be written: with less room on the disk nothing is begun
+void begin_checkpoint(MPI_Comm comm, const std::string& directory, double bytes);
+
+/// Remove what there is of DIR.new: half a checkpoint must not keep a full disk full.
+void give_up_checkpoint(MPI_Comm comm, const std::string& directory);
 
 /// Seal DIR.new, of which `files` are all the files, and let it take its place.
 void finish_checkpoint(MPI_Comm comm, const std::string& directory,

@@ -73,7 +73,7 @@ template <class Work> void or_fail(LAMMPS_NS::LAMMPS* lmp, const char* file, int
   MPI_Bcast(&length, 1, MPI_INT, speaker, lmp->world);
   message.resize(static_cast<std::size_t>(length));
   MPI_Bcast(message.data(), length, MPI_CHAR, speaker, lmp->world);
-  if (any[1]) ending() = {Cause::file_trouble, message};
+  if (any[1]) end_by_file_trouble(lmp->world, lmp->logfile, message);
   lmp->error->all(file, line, message);
 }
 

@@ -32,6 +32,7 @@ constexpr const char* atoms_file = "atoms.restart";
 constexpr const char* fluid_file = "fluid.h5";
 constexpr int consult_every = 10;   // steps, where no list is made
 constexpr double patience = 5;      // seconds to wait for a step without a trace
+constexpr double bytes_per_atom = 800, margin = 1e5;  // of LAMMPS's restart file; of the small ones
 constexpr double never = std::numeric_limits<double>::infinity();
 
 }  // namespace
@@ -171,14 +172,30 @@ void FixHemoCheckpoint::end_of_step() {
   }
 }
 
+/// Part of a checkpoint; what there is of it goes when it fails.
+template <class Work> void FixHemoCheckpoint::attempt(Work work) {
+  or_fail(lmp, FLERR, [&] {
+    try {
+      work();
+    } catch (...) {
+      io::give_up_checkpoint(world, directory_);
+      throw;
+    }
+  });
+}
+
 void FixHemoCheckpoint::save() {
   if (watch_) watch_->verify();
   const double start = MPI_Wtime();
-  or_fail(lmp, FLERR, [&] { io::begin_checkpoint(world, directory_); });
+  const double atoms = bytes_per_atom * static_cast<double>(atom->natoms);
+  attempt([&] {
+    io::begin_checkpoint(world, directory_,
+                         atoms + margin + (fluid_ ? fluid_->solver().saved_bytes() : 0));
+  });
   const std::string fresh = io::unfinished(directory_) + "/";
   std::vector<std::string> files{atoms_file};
   if (fluid_) {
-    or_fail(lmp, FLERR, [&] { fluid_->solver().save(fresh + fluid_file); });
+    attempt([&] { fluid_->solver().save(fresh + fluid_file); });
     files.emplace_back(fluid_file);
   }
   // LAMMPS itself ends the run when it cannot write.
@@ -187,26 +204,31 @@ void FixHemoCheckpoint::save() {
             fresh + atoms_file + ": writing failed (disk full or read-only?)"};
   output->write_restart(update->ntimestep);
   ending = {};
-  or_fail(lmp, FLERR, [&] {
+  attempt([&] {
     for (const auto& file : kept_) {
-      if (comm->me == 0) io::copy_file(file, fresh + io::name_of(file));
       files.push_back(io::name_of(file));
+      if (comm->me == 0) io::copy_file(file, fresh + files.back());
     }
   });
-  or_fail(lmp, FLERR, [&] {
+  attempt([&] {
     io::finish_checkpoint(world, directory_, files,
                           {static_cast<long>(update->ntimestep),
                            wall_before_ + MPI_Wtime() - started_, comm->nprocs});
   });
+  served(MPI_Wtime() - start);
+}
+
+/// Note that there is a checkpoint of this step.
+void FixHemoCheckpoint::served(double seconds) {
   signals_.served();
   pending_ = 0;
   last_step_ = update->ntimestep;
   saved_ = MPI_Wtime();
-  spent_ += saved_ - start;
+  spent_ += seconds;
   ++count_;
   if (comm->me == 0)
     utils::logmesg(lmp, "checkpoint of step " + std::to_string(last_step_) + " in " +
-                            std::to_string(saved_ - start) + " s\n");
+                            std::to_string(seconds) + " s\n");
 }
 
 /// The run ends here, and in order: LAMMPS believes that its time is up.

@@ -47,6 +47,8 @@ private:
   int consult();
   bool seamless() const;
   void save();
+  void served(double seconds);
+  template <class Work> void attempt(Work work);
   void stop(int signal);
 
   std::string directory_, resumed_;

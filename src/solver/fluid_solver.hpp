@@ -76,6 +76,8 @@ public:
   /// @throws FileError with path and reason, maybe on one rank only
   virtual void save(const std::string& path) = 0;
   virtual void load(const std::string& path) = 0;
+  /// Bytes of that file, on all ranks together.
+  virtual double saved_bytes() const = 0;
   /// Whether all populations lie at their own nodes: after every second step.
   virtual bool settled() const = 0;
 

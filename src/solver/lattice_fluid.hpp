@@ -39,6 +39,7 @@ public:
   Fastest fastest() const override;
   void save(const std::string& path) override;
   void load(const std::string& path) override;
+  double saved_bytes() const override;
   bool settled() const override { return next_ == fluid::Pass::local; }
   Vec3 total_velocity() const override;
   double excess_mass() override;

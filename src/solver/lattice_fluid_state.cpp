@@ -83,6 +83,13 @@ template <class Real> void LatticeFluid<Real>::load(const std::string& path) {
   exchange_sources(0);
 }
 
+template <class Real> double LatticeFluid<Real>::saved_bytes() const {
+  const double scalars = 19 + 3 + (exponential() ? 2.0 * fluid::sources : 0.0);
+  double bytes = scalars * sizeof(Real);
+  for (const int n : block().global) bytes *= n;
+  return bytes;
+}
+
 template class LatticeFluid<double>;  // the members defined here
 template class LatticeFluid<float>;
 
