@@ -23,6 +23,7 @@
 #include "io/checkpoint_directory.hpp"
 #include "io/files.hpp"
 #include "lammps/compat.hpp"
+#include "lammps/fix_hemo_checkpoint.h"
 #include "lammps/fix_hemo_series.h"
 #include "lammps/fix_hemo_watch.h"
 #include "lammps/host.hpp"
@@ -143,6 +144,8 @@ nlohmann::json summary(const Case& c, lammps::Host& host, double wall_s) {
   const LatticeUnits units = lattice_units(c);
   const auto* series = lammps::find_fix<LAMMPS_NS::FixHemoSeries>(&host.lammps(), "hemo/series");
   const auto* watch = lammps::find_fix<LAMMPS_NS::FixHemoWatch>(&host.lammps(), "hemo/watch");
+  const auto* checkpoint =
+      lammps::find_fix<LAMMPS_NS::FixHemoCheckpoint>(&host.lammps(), "hemo/checkpoint");
   const auto& seen = watch->record();
   const double fluid_nodes = fluid_volume(c) / std::pow(units.dx, 3);
   const double updates = fluid_nodes * static_cast<double>(steps(c));
@@ -163,6 +166,8 @@ nlohmann::json summary(const Case& c, lammps::Host& host, double wall_s) {
       {"mach_max", seen.mach_max},
       {"displacement_max_nodes", seen.displacement_max},
       {"stretch_max", seen.stretch_max},
+      {"watch_s", seen.seconds},
+      {"checkpoint_s", checkpoint->seconds()},
       {"area_drift_max", seen.area_drift_max},
       {"volume_drift_max", seen.volume_drift_max}};
 }

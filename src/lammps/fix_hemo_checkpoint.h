@@ -39,6 +39,9 @@ public:
   double compute_scalar() override { return static_cast<double>(last_step_); }
   double compute_vector(int) override;
 
+  /// Seconds spent on checkpoints by this process.
+  double seconds() const { return spent_; }
+
 private:
   enum Bits { due = 8, waited = 16 };  // beside those of SignalsNoted
 

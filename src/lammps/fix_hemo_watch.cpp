@@ -106,6 +106,7 @@ void FixHemoWatch::post_run() {
 }
 
 void FixHemoWatch::look() {
+  const double start = MPI_Wtime();
   const Seen seen = inspect();
   last_ = update->ntimestep;
   if (!started_) {
@@ -123,6 +124,7 @@ void FixHemoWatch::look() {
   r.area_drift_max = std::max(r.area_drift_max, seen.area_drift);
   r.volume_drift_max = std::max(r.volume_drift_max, seen.volume_drift);
   if (membrane_ && carrier_bits_) count_inside();
+  r.seconds += MPI_Wtime() - start;
 }
 
 void FixHemoWatch::verify() {
