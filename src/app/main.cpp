@@ -110,8 +110,9 @@ int parse_and_run(int argc, char** argv) {
     if (app.got_subcommand(name)) return not_available(name);
   if (resume && force) {
     if (rank() == 0)
-      std::fprintf(stderr, "--resume: goes on with a run, which --force would remove; accepted: one "
-                           "of them\n");
+      std::fprintf(stderr,
+                   "--resume: goes on with a run, which --force would remove; accepted: one "
+                   "of them\n");
     return 2;
   }
   if (app.got_subcommand("validate")) return hemomag::app::validate(names, json, figures);

@@ -30,7 +30,9 @@ void print_reason() {
     std::filesystem::remove_all(io::unfinished(checkpoint_name), ignored);
   }
   if (!lammps::ending().reason.empty()) {
-    std::fprintf(stderr, "hemomag: %s\n", lammps::ending().reason.c_str());
+    std::fprintf(stderr, "hemomag: %s%s\n",
+                 code() == unstable ? "the run broke off: ERROR: " : "",
+                 lammps::ending().reason.c_str());
     return;
   }
   std::ifstream log("log.lammps");

@@ -17,9 +17,9 @@
 #include "case/cells_data.hpp"
 #include "case/external_field.hpp"
 #include "case/lattice_units.hpp"
-#include "case/script.hpp"
 #include "case/run_lock.hpp"
 #include "case/same_case.hpp"
+#include "case/script.hpp"
 #include "io/checkpoint_directory.hpp"
 #include "io/files.hpp"
 #include "lammps/compat.hpp"
@@ -87,7 +87,7 @@ int prepare(const Case& c, const RunOptions& options, Files& files) {
   const System system = place(c);
   files["case.toml"] = c.text;
   files["cells.data"] = cells_data(c, system);
-  files["in.lammps"] = lammps_script(c, system);
+  files["in.lammps"] = saving_script(c, system);
   for (const auto& file : files_of(c)) files[file.copy] = whole_file(file.path);
   return done;
 }
@@ -117,7 +117,8 @@ void require_same_file(const Case& c, const std::string& key, const std::string&
 /// differs
 void require_same_run(const Case& c, const std::string& out, const Resumption& from) {
   require_same_case(c, whole_file(out + "/" + from.checkpoint + "/case.toml"));
-  for (const auto& file : files_of(c)) require_same_file(c, file.key, file.path, out + "/" + file.copy);
+  for (const auto& file : files_of(c))
+    require_same_file(c, file.key, file.path, out + "/" + file.copy);
   const Case was = read_case(out + "/case.toml", {});
   if (was.analysis.average_from != c.analysis.average_from)
     throw Error(position(c, "run.time") +

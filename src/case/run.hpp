@@ -8,7 +8,7 @@
 namespace hemomag::case_ {
 
 struct RunOptions {
-  std::string out;     ///< run directory
+  std::string out;      ///< run directory
   bool force = false;   ///< replace an existing one
   bool resume = false;  ///< go on from its last checkpoint
 };

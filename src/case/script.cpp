@@ -4,9 +4,10 @@
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
+#include <optional>
 
-#include "case/external_field.hpp"
 #include "case/cells_data.hpp"
+#include "case/external_field.hpp"
 #include "case/lattice_units.hpp"
 #include "contact/lennard_jones.hpp"
 
@@ -30,8 +31,14 @@ public:
     for (const Carrier& carrier : c.carriers) worms_ = worms_ || carrier.kind == CarrierKind::worm;
   }
 
-  /// @param resume  directory of the checkpoint the run goes on from, or empty
-  std::string write(const std::string& resume = {}, double wall_s = 0) {
+  /// The run writes checkpoints, and may go on from one.
+  struct Saving {
+    std::string resume;  ///< directory of the checkpoint it goes on from, or empty
+    double wall_s = 0;   ///< that the run has taken until then
+  };
+
+  std::string write(const std::optional<Saving>& saving) {
+    const std::string resume = saving ? saving->resume : "";
     const char* z = c_.channel.boundary == Boundary::plates ? "f" : "p";
     line("# %s", c_.title.c_str());
     line("# lattice units: dx = %.9g m, dt = %.9g s, density = %.9g kg/m3", units_.dx, units_.dt,
@@ -52,7 +59,7 @@ public:
     pairs();
     fixes();
     observers();
-    checkpoints(resume, wall_s);
+    if (saving) checkpoints(*saving);
     line("timestep 1.0\nthermo_style custom step atoms ebond eangle edihed epair f_fluid\nthermo "
          "%ld",
          std::max(1L, steps(c_) / 100));
@@ -290,14 +297,15 @@ private:
   }
 
   /// Last: what other fixes know at the end of a step is then known.
-  void checkpoints(const std::string& resume, double wall_s) {
+  void checkpoints(const Saving& saving) {
     t_ += "fix checkpoint all hemo/checkpoint checkpoint interval ";
     if (c_.run.checkpoint)
       append("%.9g", *c_.run.checkpoint);
     else
       t_ += "never";
     append(" every %d keep case.toml", watch_every);
-    if (!resume.empty()) append(" resume %s wall %.9g", resume.c_str(), wall_s);
+    if (!saving.resume.empty())
+      append(" resume %s wall %.9g", saving.resume.c_str(), saving.wall_s);
     t_ += "\n";
   }
 
@@ -311,11 +319,17 @@ private:
 
 }  // namespace
 
-std::string lammps_script(const Case& c, const System& system) { return Script(c, system).write(); }
+std::string lammps_script(const Case& c, const System& system) {
+  return Script(c, system).write(std::nullopt);
+}
+
+std::string saving_script(const Case& c, const System& system) {
+  return Script(c, system).write(Script::Saving{});
+}
 
 std::string resumed_script(const Case& c, const System& models, const std::string& checkpoint,
                            double wall_s) {
-  return Script(c, models).write(checkpoint, wall_s);
+  return Script(c, models).write(Script::Saving{checkpoint, wall_s});
 }
 
 double dipole_cutoff(const Case& c) {

@@ -6,9 +6,12 @@
 
 namespace hemomag::case_ {
 
-/// in.lammps: the whole run as a plain script for `hemomag lmp`, in lattice units. File names are
-/// relative to the run directory.
+/// The whole run as a plain script for `hemomag lmp`, in lattice units, without checkpoints. File
+/// names are relative to the run directory.
 std::string lammps_script(const Case& c, const System& system);
+
+/// in.lammps: the same with checkpoints, for which the directory must hold case.toml.
+std::string saving_script(const Case& c, const System& system);
 
 /// The same run from a checkpoint on: atoms and the state of every fix from there. Of the case it
 /// needs the models alone.

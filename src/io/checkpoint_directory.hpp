@@ -42,8 +42,8 @@ struct WholeCheckpoint {
   std::vector<std::string> refused;  ///< later ones that are not whole: one line each, with reason
 };
 
-/// The latest whole checkpoint, every byte of it read and compared with its checksum; with none, the
-/// reasons alone and an empty directory.
+/// The latest whole checkpoint, every byte of it read and compared with its checksum; with none,
+/// the reasons alone and an empty directory.
 WholeCheckpoint find_checkpoint(MPI_Comm comm, const std::string& directory);
 
 }  // namespace hemomag::io

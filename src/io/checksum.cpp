@@ -50,7 +50,8 @@ std::uint64_t checksum(MPI_Comm comm, const std::string& path) {
   sums[pieces] = rank == 0 ? bytes : 0;
   const std::unique_ptr<std::FILE, Close> file(std::fopen(path.c_str(), "rb"));
   std::vector<char> buffer;
-  for (auto k = static_cast<std::uint64_t>(rank); k < pieces; k += static_cast<std::uint64_t>(ranks))
+  for (auto k = static_cast<std::uint64_t>(rank); k < pieces;
+       k += static_cast<std::uint64_t>(ranks))
     sums[k] = sum_of_piece(file.get(), k, bytes, buffer, failed);
   MPI_Allreduce(MPI_IN_PLACE, &failed, 1, MPI_INT, MPI_MAX, comm);
   if (failed) throw FileError(path + ": cannot be read");

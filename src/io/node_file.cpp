@@ -47,9 +47,9 @@ template <class Real> void NodeFile::write(const std::string& name, std::span<co
       memory(H5Screate_simple(3, mine.data(), nullptr), H5Sclose, path_);
   const Hdf5Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, path_);
   H5Pset_obj_track_times(creation, false);  // equal states make equal files
-  Hdf5Handle data(H5Dcreate2(file_, name.c_str(), stored<Real>(), space, H5P_DEFAULT, creation,
-                             H5P_DEFAULT),
-                  H5Dclose, path_);
+  Hdf5Handle data(
+      H5Dcreate2(file_, name.c_str(), stored<Real>(), space, H5P_DEFAULT, creation, H5P_DEFAULT),
+      H5Dclose, path_);
   select_mine(space);
   if (H5Dwrite(data, native<Real>(), memory, space, transfer_, values.data()) < 0)
     throw FileError(path_ + ": HDF5 could not write it (disk full?)");

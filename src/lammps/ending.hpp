@@ -19,8 +19,8 @@ struct Ending {
 Ending& ending();
 
 /// A file or the disk ends the run on all ranks, with exit code 4 and one line on standard error.
-/// LAMMPS is not asked to: it would end MPI, and with it HDF5, which crashes over a file that it could
-/// not write. Collective.
+/// LAMMPS is not asked to: it would end MPI, and with it HDF5, which crashes over a file that it
+/// could not write. Collective.
 /// @param log  LAMMPS's, or null
 [[noreturn]] void end_by_file_trouble(MPI_Comm world, std::FILE* log, const std::string& reason);
 

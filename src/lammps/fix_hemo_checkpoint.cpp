@@ -30,8 +30,8 @@ namespace {
 
 constexpr const char* atoms_file = "atoms.restart";
 constexpr const char* fluid_file = "fluid.h5";
-constexpr int consult_every = 10;   // steps, where no list is made
-constexpr double patience = 5;      // seconds to wait for a step without a trace
+constexpr int consult_every = 10;                     // steps, where no list is made
+constexpr double patience = 5;                        // seconds to wait for a step without a trace
 constexpr double bytes_per_atom = 800, margin = 1e5;  // of LAMMPS's restart file; of the small ones
 constexpr double never = std::numeric_limits<double>::infinity();
 
@@ -51,8 +51,9 @@ FixHemoCheckpoint::FixHemoCheckpoint(LAMMPS* lmp, int narg, char** arg) : Fix(lm
 
 void FixHemoCheckpoint::parse(int narg, char** arg) {
   if (narg < 4)
-    error->all(FLERR, std::string("fix hemo/checkpoint needs DIR [interval SECONDS|never] [every N] "
-                                  "[keep FILE]... [resume DIR] [wall SECONDS]"));
+    error->all(FLERR,
+               std::string("fix hemo/checkpoint needs DIR [interval SECONDS|never] [every N] "
+                           "[keep FILE]... [resume DIR] [wall SECONDS]"));
   directory_ = arg[3];
   for (int at = 4; at < narg; at += 2) {
     const std::string key = arg[at];
@@ -89,8 +90,10 @@ void FixHemoCheckpoint::init() {
     if (modify->fix[i] == this)
       last = true;
     else if (last && modify->fix[i]->restart_global)
-      error->all(FLERR, "fix hemo/checkpoint must follow every fix that has a state: define it after "
-                        "fix " + std::string(modify->fix[i]->id));
+      error->all(FLERR,
+                 "fix hemo/checkpoint must follow every fix that has a state: define it after "
+                 "fix " +
+                     std::string(modify->fix[i]->id));
   }
   // LAMMPS's own writer of restart files, in a rhythm that never comes.
   std::string rhythm = std::to_string(std::numeric_limits<int>::max());

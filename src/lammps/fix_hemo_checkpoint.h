@@ -24,9 +24,9 @@ class FixHemoWatch;
 ///
 /// Nothing of the run changes by a checkpoint. It is taken at the end of a step in which LAMMPS has
 /// just made its neighbour lists (atoms lie in their own rank's block, in an order that the restart
-/// file keeps) and the fluid's populations lie at their own nodes; a resumed run makes the same lists
-/// from the same positions, and computes the same forces, bit by bit. Such steps come by themselves
-/// when atoms move; every `every` steps they are made to come, in every run alike.
+/// file keeps) and the fluid's populations lie at their own nodes; a resumed run makes the same
+/// lists from the same positions, and computes the same forces, bit by bit. Such steps come by
+/// themselves when atoms move; every `every` steps they are made to come, in every run alike.
 class FixHemoCheckpoint : public Fix {
 public:
   FixHemoCheckpoint(LAMMPS*, int, char**);

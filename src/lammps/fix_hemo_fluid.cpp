@@ -223,8 +223,9 @@ void FixHemoFluid::create_solver() {
 
 void FixHemoFluid::setup(int vflag) {
   if (lacks_populations_)
-    error->all(FLERR, std::string("fix hemo/fluid: the restart file does not hold the fluid itself; "
-                                  "accepted: fix hemo/checkpoint ... resume DIR before the run"));
+    error->all(FLERR,
+               std::string("fix hemo/fluid: the restart file does not hold the fluid itself; "
+                           "accepted: fix hemo/checkpoint ... resume DIR before the run"));
   // A second `run` continues where the first stopped: this step's fluid has been done already.
   if (done_step_ != update->ntimestep) post_force(vflag);
 }
@@ -330,9 +331,9 @@ double FixHemoFluid::memory_usage() {
 /// What the fluid knows besides its nodes: the step it has done and the force that drives it.
 void FixHemoFluid::write_restart(FILE* file) {
   const double* g = solver_->parameters().relaxation.force;
-  hemomag::lammps::write_state(
-      file, comm->me,
-      {static_cast<double>(done_step_), g[0], g[1], g[2], controller_ ? controller_->integral() : 0});
+  hemomag::lammps::write_state(file, comm->me,
+                               {static_cast<double>(done_step_), g[0], g[1], g[2],
+                                controller_ ? controller_->integral() : 0});
 }
 
 void FixHemoFluid::restart(char* buffer) {

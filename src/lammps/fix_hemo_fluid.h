@@ -36,7 +36,8 @@ public:
   void write_restart(FILE*) override;
   void restart(char*) override;
 
-  /// Take the populations of a restart from a file of FluidSolver::save, before the run. Collective.
+  /// Take the populations of a restart from a file of FluidSolver::save, before the run.
+  /// Collective.
   void load(const std::string& path);
 
   hemomag::solver::FluidSolver& solver();

@@ -150,8 +150,8 @@ void FixHemoWatch::violation(int rank, const std::string& what) {
   MPI_Bcast(&length, 1, MPI_INT, rank, world);
   said.resize(static_cast<std::size_t>(length));
   MPI_Bcast(said.data(), length, MPI_CHAR, rank, world);
-  const std::string where =
-      "fix hemo/watch: step " + std::to_string(update->ntimestep) + ", rank " + std::to_string(rank);
+  const std::string where = "fix hemo/watch: step " + std::to_string(update->ntimestep) +
+                            ", rank " + std::to_string(rank);
   if (!inspection_.empty()) {
     // A fix of its own: it writes as it is set up, and goes with the run.
     hemomag::lammps::ending().reason = where + ": " + said;
@@ -205,11 +205,10 @@ double FixHemoWatch::check_displacement() {
   }
   const Extreme worst(world, comm->me, std::sqrt(most));
   if (worst.value > displacement_limit_)
-    violation(worst.rank,
-              (comm->me == worst.rank ? name_of(at) : "") + " moves " +
-                  std::to_string(worst.value) + " nodes in a step, the limit is " +
-                  std::to_string(displacement_limit_) +
-                  " (forces too strong for the time step)");
+    violation(worst.rank, (comm->me == worst.rank ? name_of(at) : "") + " moves " +
+                              std::to_string(worst.value) + " nodes in a step, the limit is " +
+                              std::to_string(displacement_limit_) +
+                              " (forces too strong for the time step)");
   return worst.value;
 }
 
@@ -251,8 +250,8 @@ void FixHemoWatch::check_counts(Seen& seen) {
                      " (vertices left through a wall)");
 }
 
-/// The spring itself ends the run in the step in which an edge reaches its greatest length, which is
-/// before any look; what is seen here is how near the edges come to it.
+/// The spring itself ends the run in the step in which an edge reaches its greatest length, which
+/// is before any look; what is seen here is how near the edges come to it.
 double FixHemoWatch::check_stretch() {
   return Extreme(world, comm->me, springs_->greatest_stretch()).value;
 }
@@ -291,8 +290,8 @@ void FixHemoWatch::count_inside() {
   std::vector<Place> mine;
   for (int i = 0; i < atom->nlocal; ++i)
     if (atom->mask[i] & carrier_bits_)
-      mine.push_back({{atom->x[i][0], atom->x[i][1], atom->x[i][2]},
-                      static_cast<double>(atom->tag[i])});
+      mine.push_back(
+          {{atom->x[i][0], atom->x[i][1], atom->x[i][2]}, static_cast<double>(atom->tag[i])});
   std::vector<int> counts(static_cast<std::size_t>(comm->nprocs)), starts(counts.size(), 0);
   const int n = width * static_cast<int>(mine.size());
   MPI_Allgather(&n, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
@@ -365,11 +364,11 @@ void FixHemoWatch::restart(char* buffer) {
   auto& r = record_;
   last_ = state.whole<bigint>();
   cell_atoms_ = state.whole<bigint>();
-  for (bigint* count : {&r.cells_start, &r.cells_end, &r.carriers_start, &r.carriers_end,
-                        &r.carriers_inside_max})
+  for (bigint* count :
+       {&r.cells_start, &r.cells_end, &r.carriers_start, &r.carriers_end, &r.carriers_inside_max})
     *count = state.whole<bigint>();
-  for (double* most : {&r.mach_max, &r.displacement_max, &r.stretch_max, &r.area_drift_max,
-                       &r.volume_drift_max})
+  for (double* most :
+       {&r.mach_max, &r.displacement_max, &r.stretch_max, &r.area_drift_max, &r.volume_drift_max})
     *most = state.number();
   const auto inside = state.rest();
   for (std::size_t k = 0; k + 1 < inside.size(); k += 2)

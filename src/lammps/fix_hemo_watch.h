@@ -26,9 +26,9 @@ public:
     bigint carriers_start = 0, carriers_end = 0;
     bigint carriers_inside_max = 0;  ///< carriers found inside cells at one time
     double mach_max = 0;
-    double displacement_max = 0;  ///< of an atom in a step, in nodes
-    double stretch_max = 0;       ///< length of an edge over its limit
-    double seconds = 0;           ///< spent on looks by this process
+    double displacement_max = 0;                      ///< of an atom in a step, in nodes
+    double stretch_max = 0;                           ///< length of an edge over its limit
+    double seconds = 0;                               ///< spent on looks by this process
     double area_drift_max = 0, volume_drift_max = 0;  ///< largest |A/A0 - 1|, |V/V0 - 1| of a cell
   };
 

@@ -7,8 +7,8 @@
 
 namespace hemomag::lammps {
 
-/// The numbers by which a fix goes on after a restart, in LAMMPS's restart file. Whole numbers up to
-/// 2^53 are exact.
+/// The numbers by which a fix goes on after a restart, in LAMMPS's restart file. Whole numbers up
+/// to 2^53 are exact.
 inline void write_state(std::FILE* file, int me, const std::vector<double>& numbers) {
   if (me != 0) return;
   const double count = static_cast<double>(numbers.size());

@@ -94,7 +94,7 @@ public:
   /// rest.
   virtual void copy_owned(std::span<double> rho, std::span<Vec3> u) = 0;
   struct Fastest {
-    double speed = 0;          ///< not finite if any population of a node was not in the last step
+    double speed = 0;           ///< not finite if any population of a node was not in the last step
     std::array<int, 3> node{};  ///< global
   };
   /// Largest |u| on the owned fluid nodes of this rank.

@@ -4,9 +4,10 @@
 #include "lattice/d3q19.hpp"
 #include "solver/lattice_fluid.hpp"
 
-// What the next step needs, to and from a file. Datasets: f00 to f18 (the populations as they will be
-// collided next), ux, uy, uz, and of the exponential scheme the numbers of the sources of the last
-// step, s00 to s09, and of the one before it, t00 to t09. Halos are not stored: they are exchanged anew.
+// What the next step needs, to and from a file. Datasets: f00 to f18 (the populations as they will
+// be collided next), ux, uy, uz, and of the exponential scheme the numbers of the sources of the
+// last step, s00 to s09, and of the one before it, t00 to t09. Halos are not stored: they are
+// exchanged anew.
 
 namespace hemomag::solver {
 namespace {
@@ -36,9 +37,8 @@ template <class Real> void LatticeFluid<Real>::save(const std::string& path) {
   io::NodeFile file(at_.comm, path, block(), io::NodeFile::Open::create);
   std::vector<Real> values(block().owned());
   const auto write = [&](const std::string& name, auto value) {
-    for_each_owned(block().size, [&](int x, int y, int z, std::size_t index) {
-      values[index] = value(x, y, z);
-    });
+    for_each_owned(block().size,
+                   [&](int x, int y, int z, std::size_t index) { values[index] = value(x, y, z); });
     file.write(name, std::span<const Real>(values));
   };
   for (std::size_t i = 0; i < 19; ++i) {
@@ -50,8 +50,7 @@ template <class Real> void LatticeFluid<Real>::save(const std::string& path) {
           [&](int x, int y, int z) { return stored[f_layout_.index(x, y, z) + from]; });
   }
   for (std::size_t d = 0; d < 3; ++d)
-    write(velocity_names[d],
-          [&](int x, int y, int z) { return u_[d][n_layout_.index(x, y, z)]; });
+    write(velocity_names[d], [&](int x, int y, int z) { return u_[d][n_layout_.index(x, y, z)]; });
   if (exponential())
     for (std::size_t k = 0; k < fluid::sources; ++k) {
       write(numbered('s', k),

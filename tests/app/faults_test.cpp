@@ -60,9 +60,7 @@ protected:
   std::string process(const std::string& out) {
     return "$(sed 's/process \\([0-9]*\\).*/\\1/' " + (directory_ / out / "lock").string() + ")";
   }
-  static long lines(const std::string& text) {
-    return std::count(text.begin(), text.end(), '\n');
-  }
+  static long lines(const std::string& text) { return std::count(text.begin(), text.end(), '\n'); }
   long saved_step(const std::string& checkpoint) {
     const std::string manifest = content(directory_ / checkpoint / "manifest.json");
     const auto at = manifest.find("\"step\": ");
@@ -127,7 +125,8 @@ TEST_F(Faults, ADamagedCheckpointIsRefusedAndTheOneBeforeItUsed) {
   };
   const auto flip = [&](const std::string& file) { damage(file, size(file) / 2); };
   const auto cut = [&](const std::string& file) {
-    std::filesystem::resize_file(directory_ / file, static_cast<std::uintmax_t>(size(file) * 2 / 3));
+    std::filesystem::resize_file(directory_ / file,
+                                 static_cast<std::uintmax_t>(size(file) * 2 / 3));
   };
   const auto remove = [&](const std::string& file) { std::filesystem::remove(directory_ / file); };
   after_damage("fluid.h5", "differs from its checksum", flip);
@@ -144,7 +143,8 @@ TEST_F(Faults, EveryByteOfAManifestCounts) {
   const std::string manifest = content(directory_ / "run/checkpoint/manifest.json");
   for (std::size_t byte = 0; byte < manifest.size(); byte += 61) {
     damage("run/checkpoint/manifest.json", static_cast<long>(byte));
-    expect_said(run(1, "run", "--resume"), 2, {"not used: run/checkpoint/manifest.json: is damaged"});
+    expect_said(run(1, "run", "--resume"), 2,
+                {"not used: run/checkpoint/manifest.json: is damaged"});
     damage("run/checkpoint/manifest.json", static_cast<long>(byte));
   }
   EXPECT_EQ(run(1, "run", "--resume").code, 0);
@@ -181,8 +181,7 @@ TEST_F(Faults, TwoRunsDoNotShareADirectory) {
 TEST_F(Faults, AWriteThatFailsHalfWayEndsTheRunAndKeepsThePreviousCheckpoint) {
   // On the way no file may grow beyond 300 kB any more, which the fluid's does.
   const Outcome failed = shell(
-      "trap '' XFSZ; " +
-      in_background("run", "--set run.steps=200000 --set output.fields=never") +
+      "trap '' XFSZ; " + in_background("run", "--set run.steps=200000 --set output.fields=never") +
       "while ! [ -d " + (directory_ / "run/checkpoint").string() + " ]; do sleep 0.05; done; " +
       "prlimit --fsize=300000 --pid " + process("run") + "; kill -USR1 " + process("run") +
       "; wait %1");
@@ -221,8 +220,9 @@ TEST_F(Disk, AFullOneEndsTheRunAndKeepsThePreviousCheckpoint) {
     shell("dd if=/dev/zero of=" + fill + " bs=64k");
     shell("truncate -s -300k " + fill);
     const Outcome full =
-        run(ranks, out, "--resume --set run.steps=400 --set run.checkpoint='0 s' "
-                        "--set output.fields=never | grep -v '^step\\|^small\\|^going\\|s left'");
+        run(ranks, out,
+            "--resume --set run.steps=400 --set run.checkpoint='0 s' "
+            "--set output.fields=never | grep -v '^step\\|^small\\|^going\\|s left'");
     const Outcome code = run(ranks, out,
                              "--resume --set run.steps=400 --set run.checkpoint='0 s' "
                              "--set output.fields=never");

@@ -1,5 +1,5 @@
-// A run that is resumed from a checkpoint equals, bit by bit, the run that wrote it and went on: all
-// that the project can simulate, on one and on two ranks.
+// A run that is resumed from a checkpoint equals, bit by bit, the run that wrote it and went on:
+// all that the project can simulate, on one and on two ranks.
 #include <string>
 #include <vector>
 
@@ -62,7 +62,9 @@ std::string text(const Study& s) {
   return std::string("title = \"") + s.name + "\"\n" + s.channel +
          "[fluid]\nviscosity = \"1.2 mPa.s\"\n[numerics]\n" +
          (coarse ? "dx = \"1 um\"\n" : "dx = \"0.5 um\"\n") +
-         (sheared ? "cell_reynolds = 0.25\n" : coarse ? "dt = \"10 us\"\n" : "dt = \"4 us\"\n") +
+         (sheared  ? "cell_reynolds = 0.25\n"
+          : coarse ? "dt = \"10 us\"\n"
+                   : "dt = \"4 us\"\n") +
          s.numerics + s.contents + s.magnetic + "[run]\nsteps = " + std::to_string(s.steps) +
          "\ncheckpoint = \"1 h\"\n[output]\nfields = \"0.2 ms\"\nseries = \"0.05 ms\"\n";
 }
@@ -76,8 +78,7 @@ const std::vector<Study> studies = {
     {"Bgk", plates, particles, "scheme = \"bgk\"\n"},
     {"Exponential", plates, std::string(cells) + particles, "scheme = \"exponential\"\n"},
     {"Single", plates, std::string(cells) + particles, "precision = \"single\"\n"},
-    {"SingleExponential", plates, particles,
-     "precision = \"single\"\nscheme = \"exponential\"\n"},
+    {"SingleExponential", plates, particles, "precision = \"single\"\nscheme = \"exponential\"\n"},
     {"Periodic", periodic, std::string(cells) + particles, "", gradient},
     {"PeriodicExponential", periodic, particles, "scheme = \"exponential\"\n"},
     {"Tube", tube, std::string(cells) + particles, "", gradient},
@@ -92,12 +93,15 @@ const std::vector<Study> studies = {
     {"Sine", plates, particles, "",
      "[magnetic]\nfield = \"uniform\"\nB0 = \"0.05 T\"\ntime = \"sine\"\nfrequency = \"900 Hz\"\n"},
     {"Ramp", plates, particles, "",
-     "[magnetic]\nfield = \"gradient\"\ntime = \"ramp\"\nstart = \"0.1 ms\"\nduration = \"0.4 ms\"\n"},
+     "[magnetic]\nfield = \"gradient\"\ntime = \"ramp\"\nstart = \"0.1 ms\"\nduration = \"0.4 "
+     "ms\"\n"},
     {"Magnet", plates, particles, "",
-     "[magnetic]\nfield = \"magnet\"\nshape = \"cylinder\"\nposition = [\"4 um\", \"4 um\", \"-3 mm\"]\n"
+     "[magnetic]\nfield = \"magnet\"\nshape = \"cylinder\"\nposition = [\"4 um\", \"4 um\", \"-3 "
+     "mm\"]\n"
      "diameter = \"4 mm\"\nlength = \"5 mm\"\nremanence = \"0.4 T\"\n"},
     {"Coil", plates, particles, "",
-     "[magnetic]\nfield = \"coil\"\nposition = [\"4 um\", \"4 um\", \"-1 mm\"]\ndiameter = \"4 mm\"\n"
+     "[magnetic]\nfield = \"coil\"\nposition = [\"4 um\", \"4 um\", \"-1 mm\"]\ndiameter = \"4 "
+     "mm\"\n"
      "current = \"200 A\"\n"},
 };
 

@@ -57,7 +57,7 @@ TEST(RestartRanks, AgreesAfterTwoHundredSteps) {
   }
   MPI_Barrier(MPI_COMM_WORLD);
   std::filesystem::current_path(directory);
-  run(case_::lammps_script(c, system), 2);
+  run(case_::saving_script(c, system), 2);
 
   // Each resumed run writes checkpoints of its own, and cuts the series back to this one's.
   if (rank == 0) std::filesystem::copy("checkpoint", "from");

@@ -37,8 +37,8 @@ class RunDirectory : public testing::Test {
 protected:
   void SetUp() override {
     const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    std::string name = std::string(test->test_suite_name()) + "_" + test->name() + "_" +
-                       std::to_string(getpid());
+    std::string name =
+        std::string(test->test_suite_name()) + "_" + test->name() + "_" + std::to_string(getpid());
     for (char& c : name)
       if (c == '/') c = '_';
     directory_ = std::filesystem::temp_directory_path() / ("hemomag_" + name);
@@ -52,8 +52,8 @@ protected:
   /// `hemomag run case.toml --out OUT ...` on some ranks.
   std::string command(int ranks, const std::string& out, const std::string& options = "") const {
     const std::string parallel = ranks > 1 ? "mpirun -np " + std::to_string(ranks) + " " : "";
-    return "cd " + directory_.string() + " && " + parallel + HEMOMAG_BINARY " run case.toml --out " +
-           out + " " + options;
+    return "cd " + directory_.string() + " && " + parallel +
+           HEMOMAG_BINARY " run case.toml --out " + out + " " + options;
   }
   Outcome run(int ranks, const std::string& out, const std::string& options = "") const {
     return shell(command(ranks, out, options));
@@ -75,7 +75,8 @@ protected:
                 e == ".csv" || e == ".vtkhdf" || e == ".series")
               names.insert(std::string(kind) + "/" + entry.path().filename().string());
     for (const auto& name : names) {
-      const std::string one = content(directory_ / a / name), other = content(directory_ / b / name);
+      const std::string one = content(directory_ / a / name),
+                        other = content(directory_ / b / name);
       EXPECT_FALSE(one.empty()) << a << "/" << name << " is missing";
       EXPECT_TRUE(one == other) << name << " differs between " << a << " and " << b;
     }
