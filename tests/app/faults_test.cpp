@@ -30,6 +30,8 @@ radius = "125 nm"
 [magnetic]
 field = "gradient"
 B0 = "0.05 T"
+[analysis]
+average_from = "0 s"
 [run]
 steps = 300
 checkpoint = "1 h"
