@@ -68,6 +68,22 @@ void Moments::add(std::span<const double> values) {
   }
 }
 
+std::vector<double> Moments::state() const {
+  std::vector<double> all{static_cast<double>(count_)};
+  all.insert(all.end(), mean_.begin(), mean_.end());
+  all.insert(all.end(), square_.begin(), square_.end());
+  return all;
+}
+
+Moments Moments::from(std::span<const double> state) {
+  const std::size_t size = (state.size() - 1) / 2;
+  Moments m;
+  m.count_ = static_cast<long>(state[0]);
+  m.mean_.assign(state.begin() + 1, state.begin() + 1 + static_cast<std::ptrdiff_t>(size));
+  m.square_.assign(state.begin() + 1 + static_cast<std::ptrdiff_t>(size), state.end());
+  return m;
+}
+
 double Moments::deviation(std::size_t k) const {
   return count_ > 1 && k < square_.size() ? std::sqrt(square_[k] / static_cast<double>(count_ - 1))
                                           : 0;

@@ -35,6 +35,10 @@ public:
   /// Of the values about their mean, with count - 1; 0 below two.
   double deviation(std::size_t k) const;
 
+  /// All it holds: count, means, sums of squares; and the same again from them.
+  std::vector<double> state() const;
+  static Moments from(std::span<const double> state);
+
 private:
   long count_ = 0;
   std::vector<double> mean_, square_;  // of the values; sum of squares about the mean

@@ -15,9 +15,10 @@
 #include "case/pack.hpp"
 #include "case/run.hpp"
 #include "lammps/host.hpp"
+#include "lammps/signals.hpp"
 
 // The command line: docs/command_line.md. Exit codes: 0 done, 1 a LAMMPS script failed, 2 bad
-// input, 3 unstable, 4 file trouble.
+// input, 3 unstable, 4 file trouble, 128 + n stopped by signal n after a checkpoint.
 
 namespace {
 
@@ -49,7 +50,8 @@ int check(const case_::Case& c) {
 int lmp(const std::vector<std::string>& arguments) {
   hemomag::lammps::Host host(arguments, MPI_COMM_WORLD);
   host.script();
-  return 0;
+  // A run that a signal stopped after a checkpoint ends as the shell expects.
+  return hemomag::lammps::stopped_by() ? 128 + hemomag::lammps::stopped_by() : 0;
 }
 
 int not_available(const char* what) {
@@ -83,7 +85,7 @@ int parse_and_run(int argc, char** argv) {
     command->add_option("--out", out, "directory of the output (default: out/NAME)");
     command->add_flag("--force", force, "replace an existing one");
   }
-  run->add_flag("--resume", resume, "go on from the last checkpoint (not in this version)");
+  run->add_flag("--resume", resume, "go on from the last checkpoint of the run directory");
   app.add_subcommand("lmp", "LAMMPS with the hemo styles: hemomag lmp -in FILE")->prefix_command();
   const std::vector<std::pair<const char*, const char*>> later = {
       {"sweep", "one run per value of a key"}, {"report", "one page of a finished run"}};
@@ -114,7 +116,13 @@ int parse_and_run(int argc, char** argv) {
   }
   for (const auto& [name, help] : later)
     if (app.got_subcommand(name)) return not_available(name);
-  if (resume) return not_available("--resume");
+  if (resume && force) {
+    if (rank() == 0)
+      std::fprintf(stderr,
+                   "--resume: goes on with a run, which --force would remove; accepted: one "
+                   "of them\n");
+    return 2;
+  }
   if (app.got_subcommand("validate")) return hemomag::app::validate(names, json, figures);
   if (app.got_subcommand("bench")) return hemomag::app::bench(names, json);
   if (app.got_subcommand("check")) return with_case(path, overrides, check);
@@ -122,7 +130,7 @@ int parse_and_run(int argc, char** argv) {
   if (out.empty()) out = "out/" + std::filesystem::path(path).stem().string();
   return with_case(path, overrides, [&](const case_::Case& c) {
     if (app.got_subcommand("pack")) return case_::pack_case(c, {out, force}, MPI_COMM_WORLD);
-    return case_::run_case(c, {out, force}, MPI_COMM_WORLD);
+    return case_::run_case(c, {out, force, resume}, MPI_COMM_WORLD);
   });
 }
 

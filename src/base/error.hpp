@@ -11,4 +11,10 @@ public:
   explicit Error(const std::string& message) : std::runtime_error(message) {}
 };
 
+/// A file or the disk: path and reason.
+class FileError : public Error {
+public:
+  using Error::Error;
+};
+
 }  // namespace hemomag

@@ -2,20 +2,39 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <string>
 
 #include <unistd.h>
 
+#include "io/checkpoint_directory.hpp"
+#include "lammps/ending.hpp"
+
 namespace hemomag::case_ {
 namespace {
 
-constexpr int unstable = 3;
+constexpr int unstable = 3, file_trouble = 4;
 bool in_progress = false;
 int this_rank = 0;
 
-/// The last error line of the run's log; only rank 0 has one.
+int code() {
+  return lammps::ending().cause == lammps::Cause::file_trouble ? file_trouble : unstable;
+}
+
+/// What was said when the run ended, or the last error line of its log. Rank 0 only: it alone has a
+/// log. Half a checkpoint must not keep a full disk full.
 void print_reason() {
+  if (code() == file_trouble) {
+    std::error_code ignored;
+    std::filesystem::remove_all(io::unfinished(checkpoint_name), ignored);
+  }
+  if (!lammps::ending().reason.empty()) {
+    std::fprintf(stderr, "hemomag: %s%s\n",
+                 code() == unstable ? "the run broke off: ERROR: " : "",
+                 lammps::ending().reason.c_str());
+    return;
+  }
   std::ifstream log("log.lammps");
   std::string reason;
   for (std::string line; std::getline(log, line);)
@@ -28,12 +47,13 @@ void at_exit() {
   if (!in_progress) return;
   if (this_rank == 0) print_reason();
   std::fflush(nullptr);
-  _exit(unstable);
+  _exit(code());
 }
 
 }  // namespace
 
 RunInProgress::RunInProgress(int rank) {
+  lammps::ending();  // made before at_exit is registered, it is still there when that is called
   static const int registered = std::atexit(at_exit);
   static_cast<void>(registered);
   this_rank = rank;
@@ -45,8 +65,8 @@ RunInProgress::~RunInProgress() { in_progress = false; }
 int code_of_abort() {
   if (!in_progress) return 1;
   in_progress = false;
-  if (this_rank == 0) print_reason();
-  return unstable;
+  if (this_rank == 0 || !lammps::ending().reason.empty()) print_reason();
+  return code();
 }
 
 }  // namespace hemomag::case_

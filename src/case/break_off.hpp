@@ -17,8 +17,11 @@ public:
   RunInProgress& operator=(const RunInProgress&) = delete;
 };
 
-/// Exit code for an MPI_Abort at this moment: 3 with the reason printed while a run is in progress,
-/// else 1.
+/// Name of the checkpoints' directory in that of the run.
+inline constexpr const char* checkpoint_name = "checkpoint";
+
+/// Exit code for an MPI_Abort at this moment: while a run is in progress 3, or 4 for a file or the
+/// disk, with the reason printed, else 1.
 int code_of_abort();
 
 }  // namespace hemomag::case_

@@ -410,9 +410,6 @@ private:
         static_cast<double>(steps(c_)) * (grid * node.seconds + vertices * 250e-9);
     add("memory",
         text("about %.0f MB and 50 MB a rank", (grid * node.bytes + vertices * 2.5e3) / 1e6));
-    if (c_.positions.contains("run.checkpoint"))
-      add("checkpoints", "none are written", Verdict::doubtful,
-          "restart is not available in this version");
     add("time", seconds < 120    ? text("about %.0f s on 2 cores", seconds)
                 : seconds < 7200 ? text("about %.0f minutes on 2 cores", seconds / 60)
                                  : text("about %.0f hours on 2 cores", seconds / 3600));

@@ -156,7 +156,7 @@ struct Analysis {
 struct Run {
   std::optional<double> time;  ///< [s]
   std::optional<long> steps;
-  double checkpoint = 600;  ///< [s] of wall time
+  std::optional<double> checkpoint = 600;  ///< [s] of wall time; empty: never between
 };
 
 struct Output {

@@ -411,7 +411,10 @@ void read_run(Case& c, const Table& run, const Table& analysis) {
     run.missing("time", "is missing; time (e.g. \"1.4 s\") or steps is required");
   c.run.time = run.optional_quantity("time");
   if (run.has("steps")) c.run.steps = static_cast<long>(run.number("steps"));
-  c.run.checkpoint = run.quantity("checkpoint");
+  if (run.is_word("checkpoint", "never"))
+    c.run.checkpoint.reset();
+  else
+    c.run.checkpoint = run.quantity("checkpoint");
   c.analysis.average_from = analysis.quantity("average_from");
   const double duration =
       c.run.time ? *c.run.time : static_cast<double>(*c.run.steps) * lattice_units(c).dt;

@@ -1,8 +1,10 @@
 #include "case/cells_data.hpp"
 
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <sstream>
 
 #include "case/lattice_units.hpp"
 #include "membrane/bending.hpp"
@@ -52,6 +54,23 @@ public:
     atoms();
     topology();
     return out_.text;
+  }
+
+  /// The coefficients as commands of a script.
+  std::string commands() {
+    coefficients();
+    std::stringstream sections(out_.text);
+    std::string text, command;
+    for (std::string line; std::getline(sections, line);) {
+      if (line.empty()) continue;
+      if (const auto title = line.find(" Coeffs"); title != std::string::npos) {
+        command = line.substr(0, title) + "_coeff ";
+        command[0] = static_cast<char>(std::tolower(command[0]));
+      } else {
+        text += command + line + "\n";
+      }
+    }
+    return text;
   }
 
 private:
@@ -246,5 +265,9 @@ private:
 }  // namespace
 
 std::string cells_data(const Case& c, const System& system) { return Writer(c, system).write(); }
+
+std::string coefficient_commands(const Case& c, const System& models) {
+  return Writer(c, models).commands();
+}
 
 }  // namespace hemomag::case_

@@ -12,4 +12,8 @@ namespace hemomag::case_ {
 /// then worms; free particles are molecule 0.
 std::string cells_data(const Case& c, const System& system);
 
+/// The coefficients of cells.data as commands, for a run that takes its atoms from elsewhere. Needs
+/// the models alone.
+std::string coefficient_commands(const Case& c, const System& models);
+
 }  // namespace hemomag::case_

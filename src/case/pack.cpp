@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 #include "case/card.hpp"
 #include "case/packed_file.hpp"
+#include "case/run_lock.hpp"
 #include "io/files.hpp"
 
 namespace hemomag::case_ {
@@ -39,6 +40,8 @@ int make(const Case& c, const RunOptions& options) {
     PackedCells packed = pack_cells(c, system.models);
     system.cells = std::move(packed.cells);
     system.packing = packed.report;
+    // Refused where a run is at work.
+    if (std::filesystem::exists(options.out)) RunLock{options.out};
   } catch (const Error& e) {
     return refuse(e.what());
   }

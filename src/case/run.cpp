@@ -7,11 +7,13 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <memory>
 
 #include <nlohmann/json.hpp>
 
 #include "case/break_off.hpp"
 #include "case/card.hpp"
+#include "case/case_file.hpp"
 #include "case/cells_data.hpp"
 #include "case/external_field.hpp"
 #include "case/lattice_units.hpp"
@@ -19,12 +21,17 @@
 #include "case/pack.hpp"
 #include "case/packed_file.hpp"
 #include "case/profile_summary.hpp"
+#include "case/run_lock.hpp"
+#include "case/same_case.hpp"
 #include "case/script.hpp"
+#include "io/checkpoint_directory.hpp"
 #include "io/files.hpp"
 #include "lammps/compat.hpp"
+#include "lammps/fix_hemo_checkpoint.h"
 #include "lammps/fix_hemo_series.h"
 #include "lammps/fix_hemo_watch.h"
 #include "lammps/host.hpp"
+#include "lammps/signals.hpp"
 
 namespace hemomag::case_ {
 namespace {
@@ -52,13 +59,28 @@ std::string whole_file(const std::string& path) {
   return content;
 }
 
-/// Meshes and starting states of cells that the case refers to.
-void add_cell_copies(const Case& c, Files& files) {
+/// A file that a case refers to, and the name of its copy in the run directory.
+struct CaseFile {
+  std::string key, path, copy;
+};
+
+std::vector<CaseFile> files_of(const Case& c) {
+  std::vector<CaseFile> files;
+  if (const std::string copy = geometry_copy(c); !copy.empty())
+    files.push_back({"channel.geometry", c.channel.geometry, copy});
   if (!c.cells.empty() && c.cells[0].placement == Placement::file)
-    files[packed_copy] = whole_file(c.cells[0].packed);
+    files.push_back(
+        {entry_path("cell", 0, c.cells.size()) + ".placement", c.cells[0].packed, packed_copy});
   for (std::size_t k = 0; k < c.cells.size(); ++k)
     if (const std::string copy = mesh_copy(c, k); !copy.empty())
-      files[copy] = whole_file(c.cells[k].mesh);
+      files.push_back({entry_path("cell", k, c.cells.size()) + ".mesh", c.cells[k].mesh, copy});
+  for (const MagneticSource& source : c.magnetic.sources)
+    if (source.table) files.push_back({"magnetic.file", source.file, table_copy(source)});
+  return files;
+}
+
+void add_copies(const Case& c, Files& files) {
+  for (const auto& file : files_of(c)) files[file.copy] = whole_file(file.path);
 }
 
 /// The card and the starting state; nothing is written. Rank 0 only.
@@ -80,25 +102,53 @@ int prepare(const Case& c, const RunOptions& options, Files& files, System& syst
   }
   files["case.toml"] = c.text;
   files["cells.data"] = cells_data(c, system);
-  files["in.lammps"] = lammps_script(c, system);
-  if (const std::string copy = geometry_copy(c); !copy.empty())
-    files[copy] = whole_file(c.channel.geometry);
-  add_cell_copies(c, files);
-  for (const MagneticSource& s : c.magnetic.sources)
-    if (s.table) files[table_copy(s)] = whole_file(s.file);
+  files["in.lammps"] = saving_script(c, system);
+  add_copies(c, files);
   return done;
 }
 
+/// Everything that was there goes, but for the lock that the run holds.
 void write_directory(const std::string& out, const Files& files) {
-  std::filesystem::remove_all(out);
-  io::make_directory(out);
+  for (const auto& entry : std::filesystem::directory_iterator(out))
+    if (entry.path().filename() != RunLock::name) std::filesystem::remove_all(entry.path());
   for (const auto& [name, content] : files) io::replace_file(out + "/" + name, content);
+}
+
+/// Where a run goes on.
+struct Resumption {
+  std::string checkpoint;  ///< directory, seen from that of the run
+  io::CheckpointRecord record;
+};
+
+/// A file of the case must be that of which the run directory keeps a copy.
+void require_same_file(const Case& c, const std::string& key, const std::string& path,
+                       const std::string& copy) {
+  if (whole_file(path) != whole_file(copy))
+    throw Error(position(c, key) + ": " + path + " differs from the run's copy " + copy +
+                "; accepted with --resume: the file the run was started with");
+}
+
+/// Whether the case can go on from a checkpoint of a run directory. @throws Error with the key that
+/// differs
+void require_same_run(const Case& c, const std::string& out, const Resumption& from) {
+  require_same_case(c, whole_file(out + "/" + from.checkpoint + "/case.toml"));
+  for (const auto& file : files_of(c))
+    require_same_file(c, file.key, file.path, out + "/" + file.copy);
+  const Case was = read_case(out + "/case.toml", {});
+  if (was.analysis.average_from != c.analysis.average_from)
+    throw Error(position(c, "run.time") +
+                ": moves the default of analysis.average_from, from which the run has averaged; "
+                "accepted: analysis.average_from given");
+  if (from.record.step > steps(c))
+    throw Error(position(c, c.run.time ? "run.time" : "run.steps") + ": " +
+                std::to_string(steps(c)) + " steps end before the checkpoint, which is of step " +
+                std::to_string(from.record.step) + "; accepted: a longer run");
 }
 
 /// Run the script of the directory, with a progress line before its `run`.
 void execute(lammps::Host& host, const std::string& path, double dt) {
   std::ifstream script(path);
-  if (!script) throw Error(path + ": cannot be read");
+  if (!script) throw FileError(path + ": cannot be read");
   for (std::string line; std::getline(script, line);) {
     if (line.rfind("run ", 0) == 0)
       host.command("fix progress all hemo/progress dt_s " + std::to_string(dt * 1e6) + "e-6");
@@ -110,6 +160,8 @@ nlohmann::json summary(const Case& c, lammps::Host& host, double wall_s) {
   const LatticeUnits units = lattice_units(c);
   const auto* series = lammps::find_fix<LAMMPS_NS::FixHemoSeries>(&host.lammps(), "hemo/series");
   const auto* watch = lammps::find_fix<LAMMPS_NS::FixHemoWatch>(&host.lammps(), "hemo/watch");
+  const auto* checkpoint =
+      lammps::find_fix<LAMMPS_NS::FixHemoCheckpoint>(&host.lammps(), "hemo/checkpoint");
   const auto& seen = watch->record();
   const double fluid_nodes = fluid_volume(c) / std::pow(units.dx, 3);
   const double updates = fluid_nodes * static_cast<double>(steps(c));
@@ -128,6 +180,10 @@ nlohmann::json summary(const Case& c, lammps::Host& host, double wall_s) {
       {"carriers_end", seen.carriers_end},
       {"carriers_inside_max", seen.carriers_inside_max},
       {"mach_max", seen.mach_max},
+      {"displacement_max_nodes", seen.displacement_max},
+      {"stretch_max", seen.stretch_max},
+      {"watch_s", seen.seconds},
+      {"checkpoint_s", checkpoint ? checkpoint->seconds() : 0.0},
       {"area_drift_max", seen.area_drift_max},
       {"volume_drift_max", seen.volume_drift_max}};
   add_profiles(s, c, host);
@@ -145,24 +201,103 @@ void print_summary(const nlohmann::json& s, const std::string& out) {
   std::printf("output in %s\n", out.c_str());
 }
 
+/// Rank 0's work before a run, an exit code for all: bad input is what the user can mend.
+template <class Work> int agreed(MPI_Comm comm, Work work) {
+  int rank = 0, code = done;
+  MPI_Comm_rank(comm, &rank);
+  if (rank == 0) {
+    try {
+      code = work();
+    } catch (const FileError& e) {
+      code = fail(e.what(), file_trouble);
+    } catch (const Error& e) {
+      std::fprintf(stderr, "%s\n", e.what());
+      code = bad_input;
+    } catch (const std::exception& e) {
+      code = fail(e.what(), file_trouble);
+    }
+  }
+  return agree(code, comm);
+}
+
+/// A new run directory. Rank 0 only.
+int start(const Case& c, const RunOptions& options, std::unique_ptr<RunLock>& lock,
+          System& system) {
+  Files files;
+  if (const int code = prepare(c, options, files, system); code != done) return code;
+  std::printf("%s\n", c.title.c_str());
+  io::make_directory(options.out);
+  lock = std::make_unique<RunLock>(options.out);
+  write_directory(options.out, files);
+  return done;
+}
+
+/// The last whole checkpoint of the run directory, found by all ranks.
+int find(const RunOptions& options, MPI_Comm comm, Resumption& from) {
+  try {
+    const std::string directory = options.out + "/" + checkpoint_name;
+    const auto found = io::find_checkpoint(comm, directory);
+    return agreed(comm, [&] {
+      for (const auto& reason : found.refused)
+        std::fprintf(stderr, "hemomag: not used: %s\n", reason.c_str());
+      if (found.directory.empty())
+        return fail("--resume: " + options.out +
+                        " holds no whole checkpoint; accepted: the directory of a run that wrote "
+                        "one, or a new run with --force",
+                    bad_input);
+      from = {io::name_of(found.directory), found.record};
+      return done;
+    });
+  } catch (const FileError& e) {
+    return agreed(comm, [&] { return fail(e.what(), file_trouble); });
+  }
+}
+
+/// Make a run directory ready to go on. Rank 0 only.
+int go_on(Case c, const RunOptions& options, const Resumption& from) {
+  require_same_run(c, options.out, from);
+  if (c.analysis.measured) c.analysis.layer = layer_of(options.out + "/" + layer_summary);
+  System system;
+  system.models = cell_models(c);
+  io::replace_file(options.out + "/case.toml", c.text);
+  io::replace_file(options.out + "/resume.lammps",
+                   resumed_script(c, system, from.checkpoint, from.record.wall_s));
+  std::printf("%s\ngoing on from step %ld\n", c.title.c_str(), from.record.step);
+  return done;
+}
+
+/// Run the script in the present directory, that of the run. @return exit code
+int execute(const Case& c, const RunOptions& options, double wall_before_s, MPI_Comm comm) {
+  int rank = 0;
+  MPI_Comm_rank(comm, &rank);
+  lammps::Host host({"-screen", "none", "-log", "none"}, comm);
+  const double start = MPI_Wtime();
+  host.command(options.resume ? "log log.lammps append" : "log log.lammps");
+  execute(host, options.resume ? "resume.lammps" : "in.lammps", lattice_units(c).dt);
+  if (const int signal = lammps::stopped_by(); signal != 0) {
+    if (rank == 0)
+      std::printf("stopped by a signal after a checkpoint; --resume goes on from it\n");
+    return 128 + signal;
+  }
+  const auto results = summary(c, host, wall_before_s + MPI_Wtime() - start);
+  if (rank == 0) {
+    io::replace_file("summary.json", results.dump(2) + "\n");
+    print_summary(results, options.out);
+  }
+  return done;
+}
+
 /// Run the script of a directory and sum it up there. Collective.
-int simulate(const Case& c, const std::string& out, MPI_Comm comm) {
+/// @param wall_before_s  that the run has taken until then
+int simulate(const Case& c, const RunOptions& options, double wall_before_s, MPI_Comm comm) {
   int rank = 0, code = done;
   MPI_Comm_rank(comm, &rank);
   // From here on LAMMPS itself ends the process when something goes wrong (break_off.hpp).
   const auto home = std::filesystem::current_path();
-  std::filesystem::current_path(out);
+  std::filesystem::current_path(options.out);
   try {
     const RunInProgress running(rank);
-    lammps::Host host({"-screen", "none", "-log", "log.lammps"}, comm);
-    const double start = MPI_Wtime();
-    execute(host, "in.lammps", lattice_units(c).dt);
-    const double wall_s = MPI_Wtime() - start;
-    const auto results = summary(c, host, wall_s);
-    if (rank == 0) {
-      io::replace_file("summary.json", results.dump(2) + "\n");
-      print_summary(results, out);
-    }
+    code = execute(c, options, wall_before_s, comm);
   } catch (const std::exception& e) {
     code = rank == 0 ? fail(e.what(), file_trouble) : file_trouble;
   }
@@ -172,35 +307,28 @@ int simulate(const Case& c, const std::string& out, MPI_Comm comm) {
 
 /// Run the cells alone in DIR/layer, and give the main script the layer that they leave free.
 /// Collective.
-int measure_layer(Case c, System system, const std::string& out, MPI_Comm comm) {
-  int rank = 0, code = done;
-  MPI_Comm_rank(comm, &rank);
+int measure_layer(Case c, const System& system, const std::string& out, MPI_Comm comm) {
   const Case alone = cells_alone(c);
-  if (rank == 0) {
-    try {
-      System cells = system;
-      cells.carriers.clear();
-      Files files{{"case.toml", alone.text},
-                  {"cells.data", cells_data(alone, cells)},
-                  {"in.lammps", lammps_script(alone, cells)}};
-      add_cell_copies(alone, files);
-      write_directory(out + "/layer", files);
-    } catch (const std::exception& e) {
-      code = fail(e.what(), file_trouble);
-    }
-  }
-  code = agree(code, comm);
-  if (code == done) code = simulate(alone, out + "/layer", comm);
-  if (rank == 0 && code == done) {
-    try {
-      c.analysis.layer = layer_of(out + "/layer/summary.json");
-      io::replace_file(out + "/in.lammps", lammps_script(c, system));
-      std::printf("cell-free layer: %.3f um\n", c.analysis.layer * 1e6);
-    } catch (const std::exception& e) {
-      code = fail(e.what(), file_trouble);
-    }
-  }
-  return agree(code, comm);
+  const RunOptions options{out + "/" + layer_directory};
+  int code = agreed(comm, [&] {
+    System cells = system;
+    cells.carriers.clear();
+    Files files{{"case.toml", alone.text},
+                {"cells.data", cells_data(alone, cells)},
+                {"in.lammps", lammps_script(alone, cells)}};
+    add_copies(alone, files);
+    io::make_directory(options.out);
+    write_directory(options.out, files);
+    return done;
+  });
+  if (code == done) code = simulate(alone, options, 0, comm);
+  if (code != done) return code;
+  return agreed(comm, [&] {
+    c.analysis.layer = layer_of(out + "/" + layer_summary);
+    io::replace_file(out + "/in.lammps", saving_script(c, system));
+    std::printf("cell-free layer: %.3f um\n", c.analysis.layer * 1e6);
+    return done;
+  });
 }
 
 }  // namespace
@@ -208,30 +336,26 @@ int measure_layer(Case c, System system, const std::string& out, MPI_Comm comm) 
 int run_case(const Case& c, const RunOptions& options, MPI_Comm comm) {
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
-  int code = done;
+  std::unique_ptr<RunLock> lock;  // rank 0's
   System system;
-  if (rank == 0) {
-    try {
-      Files files;
-      code = prepare(c, options, files, system);
-      if (code == done) {
-        std::printf("%s\n", c.title.c_str());
-        try {
-          write_directory(options.out, files);
-        } catch (const std::exception& e) {
-          code = fail(e.what(), file_trouble);
-        }
-      }
-    } catch (const Error& e) {
-      std::fprintf(stderr, "%s\n", e.what());
-      code = bad_input;
-    }
+  Resumption from;
+  int code = agreed(comm, [&] {
+    if (!options.resume) return start(c, options, lock, system);
+    if (!std::filesystem::is_directory(options.out))
+      return fail("--resume: there is no run directory " + options.out +
+                      "; accepted: --out DIR of a run",
+                  bad_input);
+    lock = std::make_unique<RunLock>(options.out);
+    return done;
+  });
+  if (code == done && options.resume) {
+    code = find(options, comm, from);
+    if (code == done) code = agreed(comm, [&] { return go_on(c, options, from); });
   }
-  code = agree(code, comm);
   if (code != done) return code;
 
-  if (c.analysis.measured) code = measure_layer(c, system, options.out, comm);
-  return code == done ? simulate(c, options.out, comm) : code;
+  if (c.analysis.measured && !options.resume) code = measure_layer(c, system, options.out, comm);
+  return code == done ? simulate(c, options, from.record.wall_s, comm) : code;
 }
 
 }  // namespace hemomag::case_

@@ -8,8 +8,9 @@
 namespace hemomag::case_ {
 
 struct RunOptions {
-  std::string out;     ///< run directory
-  bool force = false;  ///< replace an existing one
+  std::string out;      ///< run directory
+  bool force = false;   ///< replace an existing one
+  bool resume = false;  ///< go on from its last checkpoint
 };
 
 /// The main job: write the run directory, run it, sum it up. Collective; every rank returns the

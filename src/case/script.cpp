@@ -4,7 +4,9 @@
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
+#include <optional>
 
+#include "case/cells_data.hpp"
 #include "case/external_field.hpp"
 #include "case/lattice_units.hpp"
 #include "contact/lennard_jones.hpp"
@@ -29,7 +31,14 @@ public:
     for (const Carrier& carrier : c.carriers) worms_ = worms_ || carrier.kind == CarrierKind::worm;
   }
 
-  std::string write() {
+  /// The run writes checkpoints, and may go on from one.
+  struct Saving {
+    std::string resume;  ///< directory of the checkpoint it goes on from, or empty
+    double wall_s = 0;   ///< that the run has taken until then
+  };
+
+  std::string write(const std::optional<Saving>& saving) {
+    const std::string resume = saving ? saving->resume : "";
     const char* z = c_.channel.boundary == Boundary::plates ? "f" : "p";
     line("# %s", c_.title.c_str());
     line("# lattice units: dx = %.9g m, dt = %.9g s, density = %.9g kg/m3", units_.dx, units_.dt,
@@ -38,16 +47,23 @@ public:
          z);
     line("neighbor %g bin\ncomm_modify cutoff %.9g", skin, ghost_cutoff());
     bonded_styles();
-    line("read_data cells.data");
+    if (resume.empty()) {
+      line("read_data cells.data");
+    } else {
+      line("read_restart %s/atoms.restart", resume.c_str());
+      // LAMMPS keeps the coefficients of a style, but not those of a hybrid of several.
+      if (cells_ > 0 && worms_) t_ += coefficient_commands(c_, system_);
+    }
     groups();
     line("mass * 1.0");
     pairs();
     fixes();
     observers();
+    if (saving) checkpoints(*saving);
     line("timestep 1.0\nthermo_style custom step atoms ebond eangle edihed epair f_fluid\nthermo "
          "%ld",
          std::max(1L, steps(c_) / 100));
-    line("run %ld", steps(c_));
+    line(resume.empty() ? "run %ld" : "run %ld upto", steps(c_));
     return t_;
   }
 
@@ -299,6 +315,19 @@ private:
     append("fix watch all hemo/watch %d mach_max 0.3", watch_every);
     if (cells_ > 0) append(" cells cells");
     if (carriers_ > 0) append(" carriers carriers");
+    line(" inspection inspection %.12g %.12g", dx_um, units_.dt);
+  }
+
+  /// Last: what other fixes know at the end of a step is then known.
+  void checkpoints(const Saving& saving) {
+    t_ += "fix checkpoint all hemo/checkpoint checkpoint interval ";
+    if (c_.run.checkpoint)
+      append("%.9g", *c_.run.checkpoint);
+    else
+      t_ += "never";
+    append(" every %d keep case.toml", watch_every);
+    if (!saving.resume.empty())
+      append(" resume %s wall %.9g", saving.resume.c_str(), saving.wall_s);
     t_ += "\n";
   }
 
@@ -312,7 +341,18 @@ private:
 
 }  // namespace
 
-std::string lammps_script(const Case& c, const System& system) { return Script(c, system).write(); }
+std::string lammps_script(const Case& c, const System& system) {
+  return Script(c, system).write(std::nullopt);
+}
+
+std::string saving_script(const Case& c, const System& system) {
+  return Script(c, system).write(Script::Saving{});
+}
+
+std::string resumed_script(const Case& c, const System& models, const std::string& checkpoint,
+                           double wall_s) {
+  return Script(c, models).write(Script::Saving{checkpoint, wall_s});
+}
 
 double dipole_cutoff(const Case& c) {
   double radius = 0;

@@ -6,9 +6,19 @@
 
 namespace hemomag::case_ {
 
-/// in.lammps: the whole run as a plain script for `hemomag lmp`, in lattice units. File names are
-/// relative to the run directory.
+/// The whole run as a plain script for `hemomag lmp`, in lattice units, without checkpoints. File
+/// names are relative to the run directory.
 std::string lammps_script(const Case& c, const System& system);
+
+/// in.lammps: the same with checkpoints, for which the directory must hold case.toml.
+std::string saving_script(const Case& c, const System& system);
+
+/// The same run from a checkpoint on: atoms and the state of every fix from there. Of the case it
+/// needs the models alone.
+/// @param checkpoint  directory of the checkpoint
+/// @param wall_s      what the run has taken until then
+std::string resumed_script(const Case& c, const System& models, const std::string& checkpoint,
+                           double wall_s);
 
 /// Cut-off of the dipole forces, in nodes.
 double dipole_cutoff(const Case& c);

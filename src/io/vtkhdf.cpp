@@ -5,28 +5,15 @@
 #include <hdf5.h>
 
 #include "base/error.hpp"
+#include "io/hdf5_handle.hpp"
 
 namespace hemomag::io {
 namespace {
 
-/// An HDF5 handle that closes itself.
-class Handle {
-public:
-  Handle(hid_t id, herr_t (*close)(hid_t), const std::string& what) : id_(id), close_(close) {
-    if (id < 0) throw Error(what + ": HDF5 could not create or open it");
-  }
-  ~Handle() { close_(id_); }
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
-  operator hid_t() const { return id_; }
-
-private:
-  hid_t id_;
-  herr_t (*close_)(hid_t);
-};
+using Handle = Hdf5Handle;
 
 void check(herr_t status, const std::string& what) {
-  if (status < 0) throw Error(what + ": HDF5 could not write it (disk full?)");
+  if (status < 0) throw FileError(what + ": HDF5 could not write it (disk full?)");
 }
 
 /// The file being written and the few things VTKHDF needs of HDF5.
@@ -67,8 +54,10 @@ public:
                const std::vector<hsize_t>& count, const void* values) {
     const int rank = static_cast<int>(whole.size());
     const Handle space(H5Screate_simple(rank, whole.data(), nullptr), H5Sclose, path_);
+    const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, path_);
+    H5Pset_obj_track_times(creation, false);  // equal states make equal files
     const Handle data(
-        H5Dcreate2(root_, name.c_str(), stored, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+        H5Dcreate2(root_, name.c_str(), stored, space, H5P_DEFAULT, creation, H5P_DEFAULT),
         H5Dclose, path_);
     const Handle memory(H5Screate_simple(rank, count.data(), nullptr), H5Sclose, path_);
     const hsize_t mine =

@@ -114,6 +114,18 @@ void BondHemoWLC::overstretched(int i, int j, double length, double limit) const
           " (forces too strong, or the time step too long)");
 }
 
+double BondHemoWLC::greatest_stretch() const {
+  const auto* x = reinterpret_cast<const Vec3*>(atom->x[0]);
+  double most = 0;
+  for (int n = 0; n < neighbor->nbondlist; ++n) {
+    const int* bond = neighbor->bondlist[n];
+    const auto type = static_cast<std::size_t>(bond[2]);
+    if (setflag[type])  // with a hybrid style the list is of all kinds
+      most = std::max(most, norm(x[bond[0]] - x[bond[1]]) / coefficients_[bond[2]][l_max]);
+  }
+  return most;
+}
+
 double BondHemoWLC::equilibrium_distance(int type) {
   return coefficients_[type][x0] * coefficients_[type][l_max];
 }

@@ -30,6 +30,8 @@ public:
   void read_restart(FILE*) override;
   void write_data(FILE*) override;
   double single(int, double, int, int, double&) override;
+  /// Largest length of an edge of this rank over its limit, at the present positions.
+  double greatest_stretch() const;
 
 private:
   enum Column { kBT, x0, l_max, mu0, exponent, gamma_c, gamma_t, columns };

@@ -14,6 +14,8 @@
 #include "memory.h"
 #include "update.h"
 
+#include "base/error.hpp"
+
 using namespace LAMMPS_NS;
 namespace analysis = hemomag::analysis;
 using hemomag::Vec3;
@@ -267,6 +269,27 @@ void ComputeHemoCell::compute_array() {
   for (std::size_t r = 0; r < ids_.size(); ++r) {
     follow(r);
     write_row(r);
+  }
+  started_ = true;
+}
+
+std::vector<double> ComputeHemoCell::followed() const {
+  std::vector<double> all;
+  for (const Followed& f : followed_)
+    all.insert(all.end(), {static_cast<double>(f.marker), f.phase, f.axis, f.centre.x, f.centre.y,
+                           f.centre.z});
+  return all;
+}
+
+void ComputeHemoCell::resume(const std::vector<double>& followed) {
+  constexpr std::size_t width = 6;
+  if (followed.size() != width * followed_.size())
+    throw hemomag::Error("compute hemo/cell: the restart file has " +
+                         std::to_string(followed.size() / width) + " cells, the group has " +
+                         std::to_string(followed_.size()));
+  for (std::size_t r = 0; r < followed_.size(); ++r) {
+    const double* f = &followed[width * r];
+    followed_[r] = {static_cast<tagint>(f[0]), f[1], f[2], {f[3], f[4], f[5]}};
   }
   started_ = true;
 }

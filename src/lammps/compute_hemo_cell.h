@@ -47,6 +47,11 @@ public:
   void init() override;
   void compute_array() override;
 
+  /// What is carried from one call to the next, and to go on with it after a restart.
+  std::vector<double> followed() const;
+  /// @throws Error when it is of other cells
+  void resume(const std::vector<double>& followed);
+
 private:
   using Surface = AngleHemoMembrane::Surface;
   /// What is carried from one call to the next.

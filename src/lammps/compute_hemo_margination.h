@@ -26,6 +26,10 @@ public:
   void init() override;
   void compute_vector() override;
 
+  /// Carriers that lay in the layer at the first call, and to go on from them after a restart.
+  long at_start() const { return at_start_; }
+  void resume(long at_start) { at_start_ = at_start; }
+
 private:
   /// Where a carrier's atom is: its height, or its distance from the vessel's wall.
   double height(int i) const;

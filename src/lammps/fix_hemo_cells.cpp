@@ -11,6 +11,7 @@
 #include "io/files.hpp"
 #include "lammps/compat.hpp"
 #include "lammps/compute_hemo_cell.h"
+#include "lammps/fix_state.hpp"
 
 using namespace LAMMPS_NS;
 
@@ -45,6 +46,7 @@ FixHemoCells::FixHemoCells(LAMMPS* lmp, int narg, char** arg) : Fix(lmp, narg, a
   if (write_every_ <= 0 || follow_every_ <= 0)
     error->all(FLERR, std::string("fix hemo/cells: N and follow must be > 0"));
   nevery = std::gcd(write_every_, follow_every_);
+  restart_global = 1;
 }
 
 FixHemoCells::~FixHemoCells() = default;
@@ -55,8 +57,14 @@ void FixHemoCells::init() {
   compute_ = hemomag::lammps::find_compute<ComputeHemoCell>(lmp, compute_id_);
   if (!compute_)
     error->all(FLERR, "fix hemo/cells: there is no compute hemo/cell named " + compute_id_);
+  if (!followed_.empty())
+    hemomag::lammps::or_fail(lmp, FLERR, [&] { compute_->resume(followed_); });
+  followed_.clear();
   hemomag::lammps::or_fail(lmp, FLERR, [&] {
-    if (!file_ && comm->me == 0) file_ = std::make_unique<hemomag::io::CsvFile>(path_, header);
+    if (file_ || comm->me != 0) return;
+    file_ = std::make_unique<hemomag::io::CsvFile>(
+        resumed_at_ ? hemomag::io::CsvFile::resume(path_, *resumed_at_)
+                    : hemomag::io::CsvFile(path_, header));
   });
 }
 
@@ -91,6 +99,25 @@ void FixHemoCells::write() {
       file_->row(row);
     }
   } catch (const hemomag::Error& e) {
-    hemomag::lammps::fail_here(lmp, FLERR, std::string(e.what()));
+    hemomag::lammps::fail_here(lmp, FLERR, e);
   }
+}
+
+void FixHemoCells::write_restart(FILE* file) {
+  try {
+    const double length = file_ ? static_cast<double>(file_->sync()) : 0;
+    std::vector<double> state{static_cast<double>(last_), length};
+    const auto followed = compute_->followed();
+    state.insert(state.end(), followed.begin(), followed.end());
+    hemomag::lammps::write_state(file, comm->me, state);
+  } catch (const hemomag::Error& e) {
+    hemomag::lammps::fail_here(lmp, FLERR, e);
+  }
+}
+
+void FixHemoCells::restart(char* buffer) {
+  hemomag::lammps::StateReader state(buffer);
+  last_ = state.whole<bigint>();
+  resumed_at_ = state.whole<long>();
+  followed_ = state.rest();
 }

@@ -8,7 +8,9 @@ FixStyle(hemo/cells,FixHemoCells)
 #define LMP_FIX_HEMO_CELLS_H
 
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "fix.h"
 
@@ -30,6 +32,8 @@ public:
   void init() override;
   void setup(int) override;
   void end_of_step() override;
+  void write_restart(FILE*) override;
+  void restart(char*) override;
 
 private:
   void write();
@@ -40,6 +44,8 @@ private:
   ComputeHemoCell* compute_ = nullptr;
   std::unique_ptr<hemomag::io::CsvFile> file_;
   bigint last_ = -1;
+  std::optional<long> resumed_at_;  // length of the file at the restart
+  std::vector<double> followed_;    // from the restart, for the compute
 };
 
 }  // namespace LAMMPS_NS

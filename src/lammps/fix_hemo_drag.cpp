@@ -17,6 +17,7 @@
 
 #include "lammps/compat.hpp"
 #include "lammps/fix_hemo_fluid.h"
+#include "lammps/fix_state.hpp"
 #include "lammps/pair_hemo_dipole.h"
 
 using namespace LAMMPS_NS;
@@ -28,6 +29,7 @@ FixHemoDrag::FixHemoDrag(LAMMPS* lmp, int narg, char** arg)
   global_freq = 1;
   extscalar = 0;
   comm_forward = comm_reverse = 3;
+  restart_global = restart_peratom = 1;
   for (int at = 3; at < narg;) {
     const std::string key = arg[at++];
     if ((key == "radius" || key == "inertia") && at + 1 < narg) {
@@ -51,11 +53,13 @@ FixHemoDrag::FixHemoDrag(LAMMPS* lmp, int narg, char** arg)
   }
   FixHemoDrag::grow_arrays(atom->nmax);
   atom->add_callback(Atom::GROW);
+  atom->add_callback(Atom::RESTART);
   for (int i = 0; i < atom->nlocal; ++i) set_arrays(i);
 }
 
 FixHemoDrag::~FixHemoDrag() {
   atom->delete_callback(id, Atom::GROW);
+  atom->delete_callback(id, Atom::RESTART);
   memory->destroy(added_);
   memory->destroy(stiff_);
   memory->destroy(drift_);
@@ -214,6 +218,28 @@ void FixHemoDrag::grow_arrays(int nmax) {
 void FixHemoDrag::copy_arrays(int i, int j, int) { std::copy_n(added_[i], 3, added_[j]); }
 
 void FixHemoDrag::set_arrays(int i) { std::fill_n(added_[i], 3, 0.0); }
+
+// What was added for the last step is part of f, and outlives a restart with its atom.
+void FixHemoDrag::write_restart(FILE* file) {
+  hemomag::lammps::write_state(file, comm->me, {started_ ? 1.0 : 0.0});
+}
+
+void FixHemoDrag::restart(char* buffer) {
+  started_ = hemomag::lammps::StateReader(buffer).number() != 0;
+}
+
+int FixHemoDrag::pack_restart(int i, double* buffer) {
+  buffer[0] = restart_width;
+  std::copy_n(added_[i], 3, buffer + 1);
+  return restart_width;
+}
+
+/// An atom's stores of all fixes lie one after the other in atom->extra, each led by its length.
+void FixHemoDrag::unpack_restart(int i, int nth) {
+  const double* store = atom->extra[i];
+  for (int k = 0; k < nth; ++k) store += static_cast<int>(*store);
+  std::copy_n(store + 1, 3, added_[i]);
+}
 
 int FixHemoDrag::pack_exchange(int i, double* buffer) {
   std::copy_n(added_[i], 3, buffer);

@@ -33,6 +33,12 @@ public:
   void grow_arrays(int) override;
   void copy_arrays(int, int, int) override;
   void set_arrays(int) override;
+  void write_restart(FILE*) override;
+  void restart(char*) override;
+  int pack_restart(int, double*) override;
+  void unpack_restart(int, int) override;
+  int size_restart(int) override { return restart_width; }
+  int maxsize_restart() override { return restart_width; }
   int pack_exchange(int, double*) override;
   int unpack_exchange(int, double*) override;
   int pack_forward_comm(int, int*, double*, int, int*) override;
@@ -54,6 +60,8 @@ public:
   void forward_positions();
 
 private:
+  static constexpr int restart_width = 4;  // its own length, then the force
+
   /// What a carrier type is. Friction and relaxation time follow in init.
   struct Kind {
     double radius = 0;           // 0: not a carrier

@@ -17,6 +17,7 @@
 #include "io/surface_file.hpp"
 #include "lammps/compat.hpp"
 #include "lammps/fix_hemo_drag.h"
+#include "lammps/fix_state.hpp"
 #include "lattice/surface_vessel.hpp"
 #include "solver/flow_controller.hpp"
 #include "solver/fluid_solver.hpp"
@@ -27,7 +28,7 @@ using hemomag::solver::FluidSolver;
 
 FixHemoFluid::FixHemoFluid(LAMMPS* lmp, int narg, char** arg)
     : Fix(lmp, narg, arg), parameters_(std::make_unique<hemomag::solver::FluidParameters>()) {
-  scalar_flag = vector_flag = 1;
+  scalar_flag = vector_flag = restart_global = 1;
   size_vector = 15;
   global_freq = 1;
   extscalar = extvector = 0;  // totals: not to be divided by the number of atoms
@@ -221,6 +222,10 @@ void FixHemoFluid::create_solver() {
 }
 
 void FixHemoFluid::setup(int vflag) {
+  if (lacks_populations_)
+    error->all(FLERR,
+               std::string("fix hemo/fluid: the restart file does not hold the fluid itself; "
+                           "accepted: fix hemo/checkpoint ... resume DIR before the run"));
   // A second `run` continues where the first stopped: this step's fluid has been done already.
   if (done_step_ != update->ntimestep) post_force(vflag);
 }
@@ -321,4 +326,42 @@ double FixHemoFluid::compute_vector(int k) {
 
 double FixHemoFluid::memory_usage() {
   return solver_ ? static_cast<double>(solver_->bytes()) : 0.0;
+}
+
+/// What the fluid knows besides its nodes: the step it has done, the force that drives it and what
+/// it gave to plates.
+void FixHemoFluid::write_restart(FILE* file) {
+  const double* g = solver_->parameters().relaxation.force;
+  const auto& book = solver().wall_book();
+  std::vector<double> state{
+      static_cast<double>(done_step_), g[0], g[1], g[2], controller_ ? controller_->integral() : 0,
+      static_cast<double>(book.steps)};
+  const auto& [low, high] = book.momentum;
+  const auto momenta =
+      hemomag::lammps::of_each_rank(world, {low.x, low.y, low.z, high.x, high.y, high.z});
+  state.insert(state.end(), momenta.begin(), momenta.end());
+  hemomag::lammps::write_state(file, comm->me, state);
+}
+
+void FixHemoFluid::restart(char* buffer) {
+  hemomag::lammps::StateReader state(buffer);
+  done_step_ = state.whole<bigint>();
+  for (double& g : restored_force_) g = state.number();
+  const double integral = state.number();
+  if (controller_) controller_->set_integral(integral);
+  const double booked = state.number();
+  restored_book_ = state.own(world, 6);
+  restored_book_.insert(restored_book_.begin(), booked);
+  lacks_populations_ = true;
+}
+
+void FixHemoFluid::load(const std::string& path) {
+  hemomag::lammps::or_fail(lmp, FLERR, [&] { solver().load(path); });
+  if (lacks_populations_) {
+    solver().set_body_force({restored_force_[0], restored_force_[1], restored_force_[2]});
+    const auto& b = restored_book_;
+    solver().resume_wall_book(
+        {{Vec3{b[1], b[2], b[3]}, Vec3{b[4], b[5], b[6]}}, static_cast<long>(b[0])});
+  }
+  lacks_populations_ = false;
 }

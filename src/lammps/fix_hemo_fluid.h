@@ -9,6 +9,7 @@ FixStyle(hemo/fluid,FixHemoFluid)
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "fix.h"
 
@@ -33,6 +34,12 @@ public:
   double compute_scalar() override;
   double compute_vector(int) override;
   double memory_usage() override;
+  void write_restart(FILE*) override;
+  void restart(char*) override;
+
+  /// Take the populations of a restart from a file of FluidSolver::save, before the run.
+  /// Collective.
+  void load(const std::string& path);
 
   hemomag::solver::FluidSolver& solver();
   double viscosity() const;
@@ -61,6 +68,9 @@ private:
   std::unique_ptr<hemomag::solver::FlowController> controller_;
   int one_way_bits_ = 0;  // groups whose forces the fluid does not feel
   bigint done_step_ = -1;
+  double restored_force_[3] = {0, 0, 0};
+  std::vector<double> restored_book_;  // steps booked, momenta of both plates
+  bool lacks_populations_ = false;     // the restart file has been read, the fluid's own not yet
 };
 
 }  // namespace LAMMPS_NS

@@ -17,6 +17,7 @@
 #include "lammps/angle_hemo_membrane.h"
 #include "lammps/compat.hpp"
 #include "lammps/fix_hemo_fluid.h"
+#include "lammps/fix_state.hpp"
 #include "solver/fluid_solver.hpp"
 
 using namespace LAMMPS_NS;
@@ -63,7 +64,7 @@ FixHemoProfiles::FixHemoProfiles(LAMMPS* lmp, int narg, char** arg) : Fix(lmp, n
                             "T, spacing L with L > 0");
   }
   nevery = 1;  // the drag on the plates is averaged over every step
-  vector_flag = 1;
+  vector_flag = restart_global = 1;
   size_vector = scalars + 1;
   global_freq = 1;
   extvector = 0;
@@ -84,7 +85,9 @@ void FixHemoProfiles::init() {
       Vec3{domain->xprd, domain->yprd, domain->zprd}, spacing_);
   hemomag::lammps::or_fail(lmp, FLERR, [&] {
     if (!series_ && !series_path_.empty() && comm->me == 0)
-      series_ = std::make_unique<hemomag::io::CsvFile>(series_path_, series_header);
+      series_ = std::make_unique<hemomag::io::CsvFile>(
+          resumed_at_ ? hemomag::io::CsvFile::resume(series_path_, *resumed_at_)
+                      : hemomag::io::CsvFile(series_path_, series_header));
   });
 }
 
@@ -104,6 +107,40 @@ void FixHemoProfiles::end_of_step() {
 
 void FixHemoProfiles::post_run() {
   if (comm->me == 0) write_profiles();
+}
+
+void FixHemoProfiles::write_restart(FILE* file) {
+  double length = 0;
+  hemomag::lammps::or_fail(lmp, FLERR, [&] {
+    if (series_) length = static_cast<double>(series_->sync());
+  });
+  std::vector<double> state{static_cast<double>(last_), length, static_cast<double>(share_steps_),
+                            static_cast<double>(booked_steps_)};
+  const auto append = [&](const std::vector<double>& values) {
+    state.insert(state.end(), values.begin(), values.end());
+  };
+  append(
+      hemomag::lammps::of_each_rank(world, {share_sum_[0], share_sum_[1], booked_[0], booked_[1]}));
+  for (const auto& list : {now_, all_.state(), late_.state()}) {
+    state.push_back(static_cast<double>(list.size()));
+    append(list);
+  }
+  hemomag::lammps::write_state(file, comm->me, state);
+}
+
+void FixHemoProfiles::restart(char* buffer) {
+  hemomag::lammps::StateReader state(buffer);
+  last_ = state.whole<bigint>();
+  resumed_at_ = state.whole<long>();
+  share_steps_ = state.whole<long>();
+  booked_steps_ = state.whole<long>();
+  const auto mine = state.own(world, 4);
+  share_sum_ = {mine[0], mine[1]};
+  booked_ = {mine[2], mine[3]};
+  const auto list = [&] { return state.numbers(state.whole<std::size_t>()); };
+  now_ = list();
+  all_ = analysis::Moments::from(list());
+  late_ = analysis::Moments::from(list());
 }
 
 /// The plates' share of the forces that were spread next to them in this step.

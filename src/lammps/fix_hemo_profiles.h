@@ -57,6 +57,8 @@ public:
   void setup(int) override;
   void end_of_step() override;
   void post_run() override;
+  void write_restart(FILE*) override;
+  void restart(char*) override;
   double compute_vector(int) override;
 
   Results results() const;
@@ -89,6 +91,7 @@ private:
   std::vector<double> now_;  // [hematocrit of slabs][velocity of slabs][Scalar]
   hemomag::analysis::Moments all_, late_;
   std::unique_ptr<hemomag::io::CsvFile> series_;
+  std::optional<long> resumed_at_;  // length of the series file at the checkpoint
 };
 
 }  // namespace LAMMPS_NS

@@ -9,6 +9,8 @@
 
 #include "io/files.hpp"
 #include "lammps/compat.hpp"
+#include "lammps/compute_hemo_margination.h"
+#include "lammps/fix_state.hpp"
 
 using namespace LAMMPS_NS;
 
@@ -32,6 +34,7 @@ FixHemoSeries::FixHemoSeries(LAMMPS* lmp, int narg, char** arg) : Fix(lmp, narg,
   }
   vector_flag = 1;
   size_vector = 3;
+  restart_global = 1;
   global_freq = nevery;
   extvector = 0;
 }
@@ -46,9 +49,14 @@ void FixHemoSeries::init() {
   compute_ = modify->compute[found];
   if (!compute_->vector_flag || compute_->size_vector < 2)
     error->all(FLERR, "fix hemo/series: compute " + compute_id_ + " is not a hemo/margination");
+  if (auto* margination = dynamic_cast<ComputeHemoMargination*>(compute_);
+      margination && carriers_at_start_)
+    margination->resume(*carriers_at_start_);
   hemomag::lammps::or_fail(lmp, FLERR, [&] {
-    if (!file_ && comm->me == 0)
-      file_ = std::make_unique<hemomag::io::CsvFile>(path_, "time_s,in_layer,probability");
+    if (file_ || comm->me != 0) return;
+    file_ = std::make_unique<hemomag::io::CsvFile>(
+        resumed_at_ ? hemomag::io::CsvFile::resume(path_, *resumed_at_)
+                    : hemomag::io::CsvFile(path_, "time_s,in_layer,probability"));
   });
 }
 
@@ -72,8 +80,32 @@ void FixHemoSeries::record() {
   try {
     file_->row({time, in_layer_, probability_});
   } catch (const hemomag::Error& e) {
-    hemomag::lammps::fail_here(lmp, FLERR, std::string(e.what()));
+    hemomag::lammps::fail_here(lmp, FLERR, e);
   }
+}
+
+void FixHemoSeries::write_restart(FILE* file) {
+  const auto* margination = dynamic_cast<ComputeHemoMargination*>(compute_);
+  try {
+    const double length = file_ ? static_cast<double>(file_->sync()) : 0;
+    hemomag::lammps::write_state(
+        file, comm->me,
+        {static_cast<double>(last_), in_layer_, probability_, sum_, static_cast<double>(rows_),
+         margination ? static_cast<double>(margination->at_start()) : -1, length});
+  } catch (const hemomag::Error& e) {
+    hemomag::lammps::fail_here(lmp, FLERR, e);
+  }
+}
+
+void FixHemoSeries::restart(char* buffer) {
+  hemomag::lammps::StateReader state(buffer);
+  last_ = state.whole<bigint>();
+  in_layer_ = state.number();
+  probability_ = state.number();
+  sum_ = state.number();
+  rows_ = state.whole<long>();
+  carriers_at_start_ = state.whole<long>();
+  resumed_at_ = state.whole<long>();
 }
 
 /// 1 carriers in the layer, 2 probability now, 3 its mean.

@@ -8,6 +8,7 @@ FixStyle(hemo/series,FixHemoSeries)
 #define LMP_FIX_HEMO_SERIES_H
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "fix.h"
@@ -30,6 +31,8 @@ public:
   void setup(int) override;
   void end_of_step() override;
   double compute_vector(int) override;
+  void write_restart(FILE*) override;
+  void restart(char*) override;
 
   double in_layer() const { return in_layer_; }
   double probability_end() const { return probability_; }
@@ -48,6 +51,7 @@ private:
   double in_layer_ = 0, probability_ = 0, sum_ = 0;
   long rows_ = 0;
   bigint last_ = -1;
+  std::optional<long> carriers_at_start_, resumed_at_;  // after a restart; the file's length
 };
 
 }  // namespace LAMMPS_NS

@@ -16,6 +16,7 @@
 #include "lammps/fix_hemo_drag.h"
 #include "lammps/fix_hemo_field.h"
 #include "lammps/fix_hemo_fluid.h"
+#include "lammps/fix_state.hpp"
 #include "solver/fluid_solver.hpp"
 
 using namespace LAMMPS_NS;
@@ -28,6 +29,7 @@ FixHemoSnapshot::FixHemoSnapshot(LAMMPS* lmp, int narg, char** arg) : Fix(lmp, n
   nevery = utils::inumeric(FLERR, arg[3], false, lmp);
   if (nevery <= 0) error->all(FLERR, std::string("fix hemo/snapshot: N must be > 0"));
   directory_ = arg[4];
+  restart_global = 1;
   for (int at = 5; at + 1 < narg; at += 2) {
     const std::string key = arg[at];
     const double value = utils::numeric(FLERR, arg[at + 1], false, lmp);
@@ -53,6 +55,10 @@ void FixHemoSnapshot::init() {
   if (force->angle_match("hemo/membrane")) add("cells", &FixHemoSnapshot::write_cells);
   if (hemomag::lammps::find_fix<FixHemoDrag>(lmp, "hemo/drag"))
     add("carriers", &FixHemoSnapshot::write_carriers);
+  hemomag::lammps::or_fail(lmp, FLERR, [&] {
+    for (auto& kind : kinds_)
+      if (comm->me == 0 && count_ > 0) kind.index.resume(static_cast<std::size_t>(count_));
+  });
 }
 
 void FixHemoSnapshot::setup(int) {
@@ -130,4 +136,15 @@ void FixHemoSnapshot::write_carriers(const std::string& path) {
     worm.values.push_back(static_cast<double>(atom->molecule[i]));
   }
   io::write_grid(world, path, io::Shape::vertex, points, corners, {velocity, id, worm, moment}, {});
+}
+
+void FixHemoSnapshot::write_restart(FILE* file) {
+  hemomag::lammps::write_state(file, comm->me,
+                               {static_cast<double>(last_), static_cast<double>(count_)});
+}
+
+void FixHemoSnapshot::restart(char* buffer) {
+  hemomag::lammps::StateReader state(buffer);
+  last_ = state.whole<bigint>();
+  count_ = state.whole<int>();
 }

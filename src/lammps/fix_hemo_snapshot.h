@@ -27,6 +27,8 @@ public:
   void init() override;
   void setup(int) override;
   void end_of_step() override;
+  void write_restart(FILE*) override;
+  void restart(char*) override;
 
 private:
   void write();

@@ -11,6 +11,7 @@
 #include "lammps/dihedral_hemo_bend.h"
 #include "lammps/fix_hemo_advect.h"
 #include "lammps/fix_hemo_cells.h"
+#include "lammps/fix_hemo_checkpoint.h"
 #include "lammps/fix_hemo_contact.h"
 #include "lammps/fix_hemo_drag.h"
 #include "lammps/fix_hemo_field.h"
@@ -50,6 +51,7 @@ void register_styles(LAMMPS_NS::LAMMPS& lmp) {
 
   fixes["hemo/advect"] = new_fix<LAMMPS_NS::FixHemoAdvect>;
   fixes["hemo/cells"] = new_fix<LAMMPS_NS::FixHemoCells>;
+  fixes["hemo/checkpoint"] = new_fix<LAMMPS_NS::FixHemoCheckpoint>;
   fixes["hemo/contact"] = new_fix<LAMMPS_NS::FixHemoContact>;
   fixes["hemo/drag"] = new_fix<LAMMPS_NS::FixHemoDrag>;
   fixes["hemo/field"] = new_fix<LAMMPS_NS::FixHemoField>;

@@ -19,6 +19,10 @@ public:
     return integral_ + 2 * error / response;
   }
 
+  /// What is remembered from one call to the next: the integral part of the force.
+  double integral() const { return integral_; }
+  void set_integral(double integral) { integral_ = integral; }
+
   static constexpr double response = 200;  ///< time steps
 
 private:

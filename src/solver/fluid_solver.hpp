@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <string>
 #include <utility>
 
 #include "base/vec3.hpp"
@@ -69,6 +70,17 @@ public:
     for (std::size_t d = 0; d < 3; ++d) parameters_.relaxation.force[d] = force[d];
   }
 
+  /// Write to a file what the next step needs, or take it from there: populations, velocities and
+  /// what a scheme remembers, as stored. A fluid written when `settled` goes on bit by bit as the
+  /// one that wrote it; else, and on other ranks, up to round-off. Collective.
+  /// @throws FileError with path and reason, maybe on one rank only
+  virtual void save(const std::string& path) = 0;
+  virtual void load(const std::string& path) = 0;
+  /// Bytes of that file, on all ranks together.
+  virtual double saved_bytes() const = 0;
+  /// Whether all populations lie at their own nodes: after every second step.
+  virtual bool settled() const = 0;
+
   bool has_vessel() const { return parameters_.vessel != nullptr; }
   /// Distance from the vessel's wall at a point of block or halo, linear between nodes.
   virtual WallDistance wall_distance(const Vec3& x) const = 0;
@@ -81,8 +93,13 @@ public:
   /// Density and velocity of the owned nodes, x fastest; solid nodes have density 1 and are at
   /// rest.
   virtual void copy_owned(std::span<double> rho, std::span<Vec3> u) = 0;
+  struct Fastest {
+    double speed = 0;           ///< not finite if any population of a node was not in the last step
+    std::array<int, 3> node{};  ///< global
+  };
   /// Largest |u| on the owned fluid nodes of this rank.
-  virtual double max_speed() const = 0;
+  virtual Fastest fastest() const = 0;
+  double max_speed() const { return fastest().speed; }
   /// Sum of the velocity over the owned fluid nodes of this rank.
   virtual Vec3 total_velocity() const = 0;
   /// Mass of the owned nodes of this rank, less that of the fluid at rest at density one.
@@ -106,6 +123,8 @@ public:
     long steps = 0;  ///< that are booked
   };
   const WallBook& wall_book() const { return wall_book_; }
+  /// Go on from the book of a run that is resumed.
+  void resume_wall_book(const WallBook& book) { wall_book_ = book; }
 
 protected:
   FluidSolver(const Neighbourhood& at, const FluidParameters& parameters)

@@ -36,7 +36,11 @@ public:
   double fluid_nodes() const override;
   std::size_t bytes() const override;
   void copy_owned(std::span<double> rho, std::span<Vec3> u) override;
-  double max_speed() const override;
+  Fastest fastest() const override;
+  void save(const std::string& path) override;
+  void load(const std::string& path) override;
+  double saved_bytes() const override;
+  bool settled() const override { return next_ == fluid::Pass::local; }
   Vec3 total_velocity() const override;
   double excess_mass() override;
   Vec3 momentum() override;

@@ -77,13 +77,22 @@ void LatticeFluid<Real>::copy_owned(std::span<double> rho, std::span<Vec3> u) {
     });
 }
 
-template <class Real> double LatticeFluid<Real>::max_speed() const {
+template <class Real> FluidSolver::Fastest LatticeFluid<Real>::fastest() const {
   double largest = 0;
-  for_each_fluid_row([&](std::ptrdiff_t node, std::ptrdiff_t, std::size_t) {
+  std::size_t at = 0;
+  for_each_fluid_row([&](std::ptrdiff_t node, std::ptrdiff_t, std::size_t index) {
     const double x = u_[0][node], y = u_[1][node], z = u_[2][node], u2 = x * x + y * y + z * z;
-    largest = u2 <= largest ? largest : u2;  // a NaN wins
+    if (u2 <= largest || std::isnan(largest)) return;  // a NaN wins
+    largest = u2;
+    at = index;
   });
-  return std::sqrt(largest);
+  const auto& n = block().size;
+  const auto coordinate = [&](int d, std::size_t i) {
+    return block().begin[static_cast<std::size_t>(d)] + static_cast<int>(i);
+  };
+  const auto nx = static_cast<std::size_t>(n[0]), ny = static_cast<std::size_t>(n[1]);
+  return {std::sqrt(largest),
+          {coordinate(0, at % nx), coordinate(1, at / nx % ny), coordinate(2, at / (nx * ny))}};
 }
 
 template <class Real> Vec3 LatticeFluid<Real>::total_velocity() const {

@@ -1,0 +1,155 @@
+// A run that is resumed from a checkpoint equals, bit by bit, the run that wrote it and went on:
+// all that the project can simulate, on one and on two ranks.
+#include <string>
+#include <vector>
+
+#include "support/run_directory.hpp"
+
+namespace hemomag::test {
+namespace {
+
+constexpr const char* plates = R"([channel]
+size = ["8 um", "9 um", "8 um"]
+shear_rate = "200 s-1"
+)";
+constexpr const char* periodic = R"([channel]
+size = ["8 um", "9 um", "8 um"]
+boundary = "periodic"
+body_force = "20000 N/m3"
+)";
+constexpr const char* tube = R"([channel]
+size = ["11 um", "10 um", "11 um"]
+boundary = "tube"
+diameter = "10 um"
+mean_velocity = "0.5 mm/s"
+)";
+constexpr const char* voxels = R"([channel]
+size = ["24 um", "48 um", "24 um"]
+boundary = "voxels"
+geometry = ")" HEMOMAG_SOURCE_DIR R"(/examples/stenosis.stl"
+mean_velocity = "0.5 mm/s"
+)";
+constexpr const char* cells = R"([[cell]]
+count = 1
+vertices = 642
+)";
+constexpr const char* particles = R"([[carrier]]
+count = 12
+radius = "125 nm"
+)";
+constexpr const char* heavy = R"([[carrier]]
+count = 12
+radius = "125 nm"
+density = "2000 kg/m3"
+)";
+constexpr const char* surfaces = R"([contact]
+carrier_contact = "surface"
+)";
+constexpr const char* measured = R"([analysis]
+layer = "measured"
+layer_run = "0.1 ms"
+)";
+constexpr const char* often = "profiles = \"0.03 ms\"\n";
+constexpr const char* worms = R"([[carrier]]
+kind = "worm"
+count = 2
+beads = 6
+stretching = "150 uN/m"
+radius = "125 nm"
+)";
+constexpr const char* gradient = R"([magnetic]
+field = "gradient"
+gradient = "-4000 T/m"
+zero_at = ["0 um", "0 um", "9 um"]
+)";
+
+struct Study {
+  const char* name;
+  std::string channel, contents, numerics = "", magnetic = "", output = "";
+  int steps = 150;
+};
+
+std::string text(const Study& s) {
+  const bool sheared = s.channel == plates;
+  const bool coarse = s.channel == voxels;
+  return std::string("title = \"") + s.name + "\"\n" + s.channel +
+         "[fluid]\nviscosity = \"1.2 mPa.s\"\n[numerics]\n" +
+         (coarse ? "dx = \"1 um\"\n" : "dx = \"0.5 um\"\n") +
+         (sheared  ? "cell_reynolds = 0.25\n"
+          : coarse ? "dt = \"10 us\"\n"
+                   : "dt = \"4 us\"\n") +
+         s.numerics + s.contents + s.magnetic + "[run]\nsteps = " + std::to_string(s.steps) +
+         "\ncheckpoint = \"1 h\"\n[output]\nfields = \"0.2 ms\"\nseries = \"0.05 ms\"\n" + s.output;
+}
+
+const std::vector<Study> studies = {
+    {"Particles", plates, particles, "", gradient},
+    {"Worms", plates, worms, "", gradient},
+    {"Cells", plates, cells},
+    {"CellsAndParticles", plates, std::string(cells) + particles, "", gradient},
+    {"CellsAndWorms", plates, std::string(cells) + worms, "", gradient},
+    {"Bgk", plates, particles, "scheme = \"bgk\"\n"},
+    {"Exponential", plates, std::string(cells) + particles, "scheme = \"exponential\"\n"},
+    {"Single", plates, std::string(cells) + particles, "precision = \"single\"\n"},
+    {"SingleExponential", plates, particles, "precision = \"single\"\nscheme = \"exponential\"\n"},
+    {"Periodic", periodic, std::string(cells) + particles, "", gradient},
+    {"PeriodicExponential", periodic, particles, "scheme = \"exponential\"\n"},
+    {"Tube", tube, std::string(cells) + particles, "", gradient},
+    {"TubeExponential", tube, particles, "scheme = \"exponential\"\n"},
+    {"TubeSingle", tube, particles, "precision = \"single\"\n"},
+    {"Voxels", voxels, particles, "", gradient},
+    {"VoxelsSingleExponential", voxels, particles,
+     "precision = \"single\"\nscheme = \"exponential\"\n"},
+    {"Inertial", plates, heavy, "", gradient},
+    {"InertialInTube", tube, std::string(cells) + heavy, "", gradient},
+    {"SurfaceContact", plates, std::string(cells) + particles + surfaces, "", gradient},
+    {"Profiles", plates, std::string(cells) + particles, "", gradient, often},
+    {"ProfilesExponential", plates, particles, "scheme = \"exponential\"\n", gradient, often},
+    {"MeasuredLayer", plates, std::string(cells) + particles + measured, "", gradient},
+    {"Uniform", plates, particles, "", "[magnetic]\nfield = \"uniform\"\nB0 = \"0.05 T\"\n"},
+    {"Rotating", plates, particles, "",
+     "[magnetic]\nfield = \"rotating\"\nB0 = \"5 mT\"\nfrequency = \"500 Hz\"\n"},
+    {"Sine", plates, particles, "",
+     "[magnetic]\nfield = \"uniform\"\nB0 = \"0.05 T\"\ntime = \"sine\"\nfrequency = \"900 Hz\"\n"},
+    {"Ramp", plates, particles, "",
+     "[magnetic]\nfield = \"gradient\"\ntime = \"ramp\"\nstart = \"0.1 ms\"\nduration = \"0.4 "
+     "ms\"\n"},
+    {"Magnet", plates, particles, "",
+     "[magnetic]\nfield = \"magnet\"\nshape = \"cylinder\"\nposition = [\"4 um\", \"4 um\", \"-3 "
+     "mm\"]\n"
+     "diameter = \"4 mm\"\nlength = \"5 mm\"\nremanence = \"0.4 T\"\n"},
+    {"Coil", plates, particles, "",
+     "[magnetic]\nfield = \"coil\"\nposition = [\"4 um\", \"4 um\", \"-1 mm\"]\ndiameter = \"4 "
+     "mm\"\n"
+     "current = \"200 A\"\n"},
+};
+
+class Resume : public RunDirectory, public testing::WithParamInterface<std::tuple<int, Study>> {
+protected:
+  int ranks() const { return std::get<0>(GetParam()); }
+};
+
+TEST_P(Resume, EqualsTheRunThatWentOn) {
+  write_case(text(std::get<1>(GetParam())));
+  const Outcome whole = run(ranks(), "whole");
+  ASSERT_EQ(whole.code, 0) << whole.said;
+  // The checkpoint at the end goes; the one before it is of the first hundred steps.
+  copy("whole", "resumed");
+  std::filesystem::remove_all(directory_ / "resumed/checkpoint");
+  std::filesystem::remove(directory_ / "resumed/summary.json");
+  const Outcome resumed = run(ranks(), "resumed", "--resume");
+  ASSERT_EQ(resumed.code, 0) << resumed.said;
+  EXPECT_NE(resumed.said.find("going on from step"), std::string::npos) << resumed.said;
+  EXPECT_EQ(resumed.said.find("cell-free layer"), std::string::npos) << "measured again";
+  expect_same("whole", "resumed");
+}
+
+INSTANTIATE_TEST_SUITE_P(Everything, Resume,
+                         testing::Combine(testing::Values(1, 2), testing::ValuesIn(studies)),
+                         [](const auto& info) {
+                           return std::string(std::get<1>(info.param).name) +
+                                  std::to_string(std::get<0>(info.param));
+                         });
+
+}  // namespace
+}  // namespace hemomag::test
