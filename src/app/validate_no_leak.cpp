@@ -99,6 +99,9 @@ Pressed press(const std::string& out, CarrierContact contact, double sigma) {
   std::snprintf(force, sizeof force, "fix press carriers addforce 0 0 %.12g",
                 -pressed_with / case_::lattice_units(c).force());
   prepare(host, out + "/no_leak.data", c, system, force);
+  // Those inside are counted here; a user's run would end.
+  host.command("unfix watch");
+  host.command("fix watch all hemo/watch 100 cells cells carriers carriers");
   host.command("run " + std::to_string(steps) + " post no");
   Pressed p;
   p.inside =

@@ -1,5 +1,6 @@
 #include "case/cells_data.hpp"
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <cstdio>
@@ -99,8 +100,8 @@ private:
     out_("%ld atoms\n%ld bonds\n%ld angles\n%ld dihedrals\n", n.atoms, n.bonds, n.angles,
          n.dihedrals);
     out_("%zu atom types\n%ld bond types\n%ld angle types\n%ld dihedral types\n",
-         c_.cells.size() + c_.carriers.size(), types_.bonds + worms_, types_.angles + worms_,
-         types_.dihedrals);
+         std::max<std::size_t>(1, c_.cells.size() + c_.carriers.size()),  // LAMMPS wants one
+         types_.bonds + worms_, types_.angles + worms_, types_.dihedrals);
     out_("0 %d xlo xhi\n0 %d ylo yhi\n0 %d zlo zhi", size[0], size[1], size[2]);
   }
 

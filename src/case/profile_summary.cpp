@@ -26,6 +26,7 @@ void add_profiles(nlohmann::json& summary, const Case& c, lammps::Host& host) {
   const auto* profiles = lammps::find_fix<Profiles>(&host.lammps(), "hemo/profiles");
   if (!profiles) return;
   const auto r = profiles->results();
+  if (r.samples == 0) return;
   entry = {{"samples", r.samples},          {"hematocrit", r.hematocrit},
            {"drag_pa", by_plate(r.drag)},   {"velocity_mm_per_s", r.velocity.mean},
            {"relative_viscosity", nullptr}, {"apparent_viscosity_pa_s", nullptr}};

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "case/break_off.hpp"
+#include "case/bricks.hpp"
 #include "case/card.hpp"
 #include "case/case_file.hpp"
 #include "case/cells_data.hpp"
@@ -339,7 +340,9 @@ int run_case(const Case& c, const RunOptions& options, MPI_Comm comm) {
   std::unique_ptr<RunLock> lock;  // rank 0's
   System system;
   Resumption from;
+  const RankGrid ranks = rank_grid(c, comm);
   int code = agreed(comm, [&] {
+    require_bricks(c, ranks);
     if (!options.resume) return start(c, options, lock, system);
     if (!std::filesystem::is_directory(options.out))
       return fail("--resume: there is no run directory " + options.out +

@@ -14,10 +14,10 @@
 namespace hemomag::case_ {
 namespace {
 
-constexpr double skin = 1.2;  // nodes; flow carries atoms past half of it every dozen steps
 constexpr double dipole_radii =
     12;  // cut-off of the dipole forces: 0.08 % of the contact pull beyond it
 constexpr int watch_every = 100;
+constexpr int inside_looks = 10;  // on end: a carrier that only grazed a membrane is out by then
 
 const char* layer_walls(LayerWalls walls) {
   return walls == LayerWalls::lower ? "lower" : walls == LayerWalls::both ? "both" : "vessel";
@@ -315,6 +315,7 @@ private:
     append("fix watch all hemo/watch %d mach_max 0.3", watch_every);
     if (cells_ > 0) append(" cells cells");
     if (carriers_ > 0) append(" carriers carriers");
+    if (cells_ > 0 && carriers_ > 0) append(" inside_looks %d", inside_looks);
     line(" inspection inspection %.12g %.12g", dx_um, units_.dt);
   }
 

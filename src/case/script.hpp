@@ -6,6 +6,9 @@
 
 namespace hemomag::case_ {
 
+/// Of the neighbour lists, in nodes; flow carries atoms past half of it every dozen steps.
+inline constexpr double skin = 1.2;
+
 /// The whole run as a plain script for `hemomag lmp`, in lattice units, without checkpoints. File
 /// names are relative to the run directory.
 std::string lammps_script(const Case& c, const System& system);

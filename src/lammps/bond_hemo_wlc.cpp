@@ -11,11 +11,10 @@
 #include "force.h"
 #include "memory.h"
 #include "neighbor.h"
-#include "update.h"
 #include "utils.h"
 
 #include "base/vec3.hpp"
-#include "lammps/compat.hpp"
+#include "lammps/accident.hpp"
 
 using namespace LAMMPS_NS;
 using hemomag::Vec3;
@@ -105,13 +104,14 @@ void BondHemoWLC::tally(int eflag) {
 }
 
 void BondHemoWLC::overstretched(int i, int j, double length, double limit) const {
-  hemomag::lammps::fail_here(
-      lmp, FLERR,
-      "bond_style hemo/wlc: step " + std::to_string(update->ntimestep) + ", rank " +
-          std::to_string(comm->me) + ": the edge between atoms " + std::to_string(atom->tag[i]) +
-          " and " + std::to_string(atom->tag[j]) + " is " + std::to_string(length) +
-          " long, its limit is " + std::to_string(limit) +
-          " (forces too strong, or the time step too long)");
+  const std::string cell =
+      atom->molecule[i] > 0 ? " of cell " + std::to_string(atom->molecule[i]) : std::string();
+  hemomag::lammps::accident(lmp, "bond_style hemo/wlc",
+                            "the edge between atoms " + std::to_string(atom->tag[i]) + " and " +
+                                std::to_string(atom->tag[j]) + cell + " is " +
+                                std::to_string(length) + " long, its limit is " +
+                                std::to_string(limit) +
+                                " (forces too strong, or the time step too long)");
 }
 
 double BondHemoWLC::greatest_stretch() const {

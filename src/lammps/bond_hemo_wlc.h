@@ -39,7 +39,7 @@ private:
   void derive(int type);
   void rebuild();
   void tally(int eflag);
-  [[noreturn]] void overstretched(int i, int j, double length, double limit) const;
+  void overstretched(int i, int j, double length, double limit) const;
 
   hemomag::lammps::Coefficients<columns> coefficients_;
   std::vector<hemomag::membrane::Spring> spring_;

@@ -15,6 +15,7 @@
 #include "utils.h"
 
 #include "io/surface_file.hpp"
+#include "lammps/accident.hpp"
 #include "lammps/compat.hpp"
 #include "lammps/fix_hemo_drag.h"
 #include "lammps/fix_state.hpp"
@@ -271,13 +272,11 @@ void FixHemoFluid::velocity_at_atoms(int bits, double** v) {
 
 void FixHemoFluid::lost_point(long i, const char* doing) const {
   const double* x = atom->x[i];
-  hemomag::lammps::fail_here(lmp, FLERR,
-                             "fix hemo/fluid: step " + std::to_string(update->ntimestep) +
-                                 ", rank " + std::to_string(comm->me) + ": atom " +
-                                 std::to_string(atom->tag[i]) + " at " + std::to_string(x[0]) +
-                                 " " + std::to_string(x[1]) + " " + std::to_string(x[2]) +
-                                 " is outside the channel or not finite while " + doing +
-                                 " (forces too strong for the time step?)");
+  hemomag::lammps::accident(lmp, "fix hemo/fluid",
+                            "atom " + std::to_string(atom->tag[i]) + " at " + std::to_string(x[0]) +
+                                " " + std::to_string(x[1]) + " " + std::to_string(x[2]) +
+                                " is outside the channel or not finite while " + doing +
+                                " (forces too strong for the time step?)");
 }
 
 FluidSolver& FixHemoFluid::solver() {

@@ -57,7 +57,7 @@ private:
   void check_scheme();
   void hold_mean_velocity();
   void require_place_in_script() const;
-  [[noreturn]] void lost_point(long index, const char* doing) const;
+  void lost_point(long index, const char* doing) const;
 
   std::unique_ptr<hemomag::solver::FluidParameters> parameters_;
   std::unique_ptr<hemomag::solver::FluidSolver> solver_;

@@ -280,7 +280,8 @@ void FixHemoProfiles::write_row() const {
 void FixHemoProfiles::write_profiles() const {
   const double mm_per_s = 1e-3 * dx_um_ / dt_s_;
   std::string text = std::string(profile_header) + "\n";
-  for (std::size_t k = 0; k < slabs_; ++k) {
+  const std::size_t rows = averaged().count() > 0 ? slabs_ : 0;
+  for (std::size_t k = 0; k < rows; ++k) {
     const Mean ht = mean_of(k, 1), u = mean_of(slabs_ + k, mm_per_s);
     char line[160];
     std::snprintf(line, sizeof line, "%.9g,%.9g,%.9g,%.9g,%.9g\n",

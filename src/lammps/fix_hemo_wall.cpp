@@ -4,9 +4,9 @@
 
 #include "atom.h"
 #include "error.h"
-#include "update.h"
 #include "utils.h"
 
+#include "lammps/accident.hpp"
 #include "lammps/compat.hpp"
 #include "lammps/fix_hemo_fluid.h"
 #include "solver/fluid_solver.hpp"
@@ -50,7 +50,10 @@ void FixHemoWall::post_force(int) {
     if (!(atom->mask[i] & groupbit)) continue;
     const auto [distance, gradient] =
         fluid.wall_distance({atom->x[i][0], atom->x[i][1], atom->x[i][2]});
-    if (!(distance > 0)) beyond_wall(i);  // not a number is neither
+    if (!(distance > 0)) {  // not a number is neither
+      beyond_wall(i);
+      continue;
+    }
     const double push = hemomag::contact::force(wall_, distance);
     for (std::size_t d = 0; d < 3; ++d) atom->f[i][d] += push * gradient[d];
     energy_ += hemomag::contact::energy(wall_, distance);
@@ -59,13 +62,11 @@ void FixHemoWall::post_force(int) {
 
 void FixHemoWall::beyond_wall(int i) const {
   const double* x = atom->x[i];
-  hemomag::lammps::fail_here(lmp, FLERR,
-                             "fix hemo/wall: step " + std::to_string(update->ntimestep) +
-                                 ": atom " + std::to_string(atom->tag[i]) + " at " +
-                                 std::to_string(x[0]) + " " + std::to_string(x[1]) + " " +
-                                 std::to_string(x[2]) +
-                                 " is beyond the vessel's wall (forces too strong for the time "
-                                 "step?)");
+  hemomag::lammps::accident(
+      lmp, "fix hemo/wall",
+      "atom " + std::to_string(atom->tag[i]) + " at " + std::to_string(x[0]) + " " +
+          std::to_string(x[1]) + " " + std::to_string(x[2]) +
+          " is beyond the vessel's wall (forces too strong for the time step?)");
 }
 
 double FixHemoWall::compute_scalar() {

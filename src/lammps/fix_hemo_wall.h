@@ -26,7 +26,7 @@ public:
   double compute_scalar() override;
 
 private:
-  [[noreturn]] void beyond_wall(int i) const;
+  void beyond_wall(int i) const;
 
   hemomag::contact::WallRepulsion wall_;
   FixHemoFluid* fluid_ = nullptr;

@@ -45,6 +45,10 @@ struct Extreme {
 
 constexpr double worst_volume_drift = 0.5;
 
+std::string three(const double* v) {
+  return std::to_string(v[0]) + " " + std::to_string(v[1]) + " " + std::to_string(v[2]);
+}
+
 }  // namespace
 
 FixHemoWatch::FixHemoWatch(LAMMPS* lmp, int narg, char** arg) : Fix(lmp, narg, arg) {
@@ -86,7 +90,10 @@ int FixHemoWatch::group_bit(const char* name) {
   return group->bitmask[found];
 }
 
-int FixHemoWatch::setmask() { return FixConst::END_OF_STEP | FixConst::POST_RUN; }
+int FixHemoWatch::setmask() {
+  return FixConst::POST_INTEGRATE | FixConst::FINAL_INTEGRATE | FixConst::END_OF_STEP |
+         FixConst::POST_RUN;
+}
 
 void FixHemoWatch::init() {
   fluid_ = hemomag::lammps::find_fix<FixHemoFluid>(lmp, "hemo/fluid");
@@ -100,6 +107,14 @@ void FixHemoWatch::setup(int) {
   if (!resumed_) look();
   resumed_ = false;
 }
+
+// What has no force or no place in the lists of LAMMPS must be found before it computes these.
+void FixHemoWatch::post_integrate() {
+  check_plates();
+  check_accidents();
+}
+
+void FixHemoWatch::final_integrate() { check_accidents(); }
 void FixHemoWatch::end_of_step() { look(); }
 void FixHemoWatch::post_run() {
   if (last_ != update->ntimestep && update->ntimestep == update->laststep) look();
@@ -134,6 +149,7 @@ void FixHemoWatch::verify() {
 /// Every check. Ends the run at the first that fails.
 FixHemoWatch::Seen FixHemoWatch::inspect() {
   Seen seen;
+  check_accidents();
   check_finite();
   seen.displacement = check_displacement();
   if (fluid_) seen.mach = check_mach();
@@ -172,6 +188,31 @@ std::string FixHemoWatch::name_of(int i) const {
   return "atom " + tag + (molecule > 0 ? " of cell " + std::to_string(molecule) : "");
 }
 
+void FixHemoWatch::note(const std::string& accident) {
+  if (accident_.empty()) accident_ = accident;
+}
+
+/// In every step: does an atom of this rank stand beyond a plate, or nowhere?
+void FixHemoWatch::check_plates() {
+  for (int d = 0; d < 3; ++d) {
+    if (domain->periodicity[d]) continue;
+    const double low = domain->boxlo[d], high = domain->boxhi[d];
+    for (int i = 0; i < atom->nlocal; ++i) {
+      const double* x = atom->x[i];
+      if (x[d] > low && x[d] < high) continue;
+      note(name_of(i) + " at " + three(x) +
+           " is beyond a plate, or not finite (forces too strong "
+           "for the time step)");
+      return;
+    }
+  }
+}
+
+void FixHemoWatch::check_accidents() {
+  const Extreme worst(world, comm->me, accident_.empty() ? 0.0 : 1.0);
+  if (worst.value > 0) violation(worst.rank, accident_);
+}
+
 void FixHemoWatch::check_finite() {
   int mine = -1;
   for (int i = 0; i < atom->nlocal && mine < 0; ++i)
@@ -181,9 +222,6 @@ void FixHemoWatch::check_finite() {
   if (worst.value == 0) return;
   std::string what;
   if (comm->me == worst.rank) {
-    const auto three = [&](const double* v) {
-      return std::to_string(v[0]) + " " + std::to_string(v[1]) + " " + std::to_string(v[2]);
-    };
     what = name_of(mine) + ": position " + three(atom->x[mine]) + ", velocity " +
            three(atom->v[mine]) + ", force " + three(atom->f[mine]) +
            " are not all finite (the run is unstable: a shorter time step or weaker forces may "

@@ -36,6 +36,8 @@ public:
   int setmask() override;
   void init() override;
   void setup(int) override;
+  void post_integrate() override;
+  void final_integrate() override;
   void end_of_step() override;
   void post_run() override;
   double compute_vector(int) override;
@@ -45,6 +47,8 @@ public:
   const WatchRecord& record() const { return record_; }
   /// End the run now if it is not sound; nothing is recorded. Collective.
   void verify();
+  /// What this rank alone has met (accident.hpp): the run ends before this step does.
+  void note(const std::string& accident);
 
 private:
   /// What one look finds.
@@ -55,6 +59,8 @@ private:
 
   void look();
   Seen inspect();
+  void check_plates();
+  void check_accidents();
   void check_finite();
   double check_displacement();
   double check_mach();
@@ -74,6 +80,7 @@ private:
   std::string inspection_;  // arguments of the snapshot that a violation leaves
   bigint cell_atoms_ = 0;
   bigint last_ = -1;
+  std::string accident_;  // the first that this rank has met, or empty
   bool started_ = false, resumed_ = false;
   WatchRecord record_;
   std::map<tagint, int> inside_;  // carriers inside cells, and for how many looks

@@ -11,9 +11,9 @@
 #include "memory.h"
 #include "neigh_list.h"
 #include "neighbor.h"
-#include "update.h"
 #include "utils.h"
 
+#include "lammps/accident.hpp"
 #include "lammps/compat.hpp"
 #include "lammps/fix_hemo_drag.h"
 #include "lammps/fix_hemo_field.h"
@@ -110,12 +110,13 @@ magnetic::PairForce PairHemoDipole::repulsion_between(int i, int j, const Vec3& 
         magnetic::contact_pull(norm(m[i]), norm(m[j]), p.contact_distance), p.kappa,
         p.contact_distance, r);
   }
-  if (norm2(r) <= p.contact_distance * p.contact_distance)
-    hemomag::lammps::fail_here(lmp, FLERR,
-                               "pair_style hemo/dipole: step " + std::to_string(update->ntimestep) +
-                                   ": carriers " + std::to_string(atom->tag[i]) + " and " +
-                                   std::to_string(atom->tag[j]) +
-                                   " touch, where the repulsion of Eq. 26 is singular (use soft)");
+  if (norm2(r) <= p.contact_distance * p.contact_distance) {
+    hemomag::lammps::accident(lmp, "pair_style hemo/dipole",
+                              "carriers " + std::to_string(atom->tag[i]) + " and " +
+                                  std::to_string(atom->tag[j]) +
+                                  " touch, where the repulsion of Eq. 26 is singular (use soft)");
+    return {};
+  }
   return magnetic::paper_repulsion(p.epsilon, p.sigma, p.contact_distance, r);
 }
 

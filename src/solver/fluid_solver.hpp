@@ -31,6 +31,9 @@ struct FluidParameters {
   double reach_beyond_block = 0;  ///< how far a rank's points may lie outside its block, in nodes
 };
 
+/// Nodes around a block that its points can reach, which every neighbouring block must hold.
+int coupling_halo(double reach_beyond_block);
+
 /// Distance of a point from a vessel's wall and its gradient.
 struct WallDistance {
   double distance;

@@ -22,10 +22,6 @@ std::size_t numbers_of(const fluid::Relaxation& relaxation) {
   return relaxation.collision == fluid::Collision::exponential ? 19 + 2 * fluid::sources : 19;
 }
 
-int coupling_halo(double reach_beyond_block) {
-  return ibm::kernel_reach + static_cast<int>(std::ceil(reach_beyond_block));
-}
-
 /// Pointers to node (0, 0, 0) of the fields that lie one after the other in a storage.
 template <std::size_t n, class Real>
 std::array<Real*, n> fields_in(AlignedArray<Real>& storage, const lattice::NodeLayout& layout,
@@ -37,6 +33,10 @@ std::array<Real*, n> fields_in(AlignedArray<Real>& storage, const lattice::NodeL
 }
 
 }  // namespace
+
+int coupling_halo(double reach_beyond_block) {
+  return ibm::kernel_reach + static_cast<int>(std::ceil(reach_beyond_block));
+}
 
 template <class Real>
 LatticeFluid<Real>::LatticeFluid(const Neighbourhood& at, const FluidParameters& parameters)

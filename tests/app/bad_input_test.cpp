@@ -59,8 +59,12 @@ protected:
   }
 
   Outcome run_file(const std::string& name, const std::string& options = "") {
-    const std::string command = "cd " + directory_.string() + " && " HEMOMAG_BINARY " run " + name +
-                                " --out result " + options + " 2>&1 >/dev/null";
+    return shell(HEMOMAG_BINARY " run " + name + " --out result " + options);
+  }
+
+  /// Run a command there. @return exit code and what it wrote to standard error
+  Outcome shell(const std::string& line) {
+    const std::string command = "cd " + directory_.string() + " && " + line + " 2>&1 >/dev/null";
     std::FILE* pipe = popen(command.c_str(), "r");
     std::string error;
     std::array<char, 512> buffer;
@@ -623,6 +627,17 @@ TEST_F(BadInput, Packing) {
           "case.toml:13:1: cell.1.placement:", "differs from another [[cell]]");
 }
 
+TEST_F(BadInput, MoreRanksThanTheChannelHasRoomFor) {
+  std::ofstream(directory_ / "case.toml")
+      << changed("\"8 um\", \"8 um\", \"8 um\"", "\"4 um\", \"4 um\", \"4 um\"");
+  const auto [code, said] = shell("mpirun -np 16 " HEMOMAG_BINARY " run case.toml --out result");
+  EXPECT_EQ(code, 2) << said;
+  EXPECT_NE(said.find("case.toml:3:8: channel.size: leaves a rank a brick of 2 nodes along"),
+            std::string::npos)
+      << said;
+  EXPECT_FALSE(std::filesystem::exists(directory_ / "result"));
+}
+
 TEST_F(BadInput, AnExistingDirectoryIsKept) {
   std::filesystem::create_directories(directory_ / "result");
   std::ofstream(directory_ / "result" / "precious") << "data";
@@ -640,6 +655,15 @@ TEST_F(BadInput, ARunThatBreaksOffExitsWithThreeAndSaysWhy) {
   EXPECT_EQ(outcome.code, 3) << outcome.error;
   EXPECT_NE(outcome.error.find("the run broke off: ERROR"), std::string::npos) << outcome.error;
   EXPECT_TRUE(std::filesystem::exists(directory_ / "result" / "log.lammps"));
+  EXPECT_TRUE(std::filesystem::exists(directory_ / "result" / "inspection" / "cells_00000.vtkhdf"));
+}
+
+TEST_F(BadInput, AChannelOfPlasmaAloneIsGood) {
+  std::string text = good;
+  text.erase(text.find("[[carrier]]"), text.find("[run]") - text.find("[[carrier]]"));
+  const Outcome outcome = run(text);
+  EXPECT_EQ(outcome.code, 0) << outcome.error;
+  EXPECT_TRUE(std::filesystem::exists(directory_ / "result" / "summary.json"));
 }
 
 TEST_F(BadInput, TheGoodFileIsGood) {

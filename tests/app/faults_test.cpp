@@ -168,6 +168,32 @@ TEST_F(Faults, ResumingNeedsTheSameCase) {
   EXPECT_EQ(saved_step("run/checkpoint"), 200);
 }
 
+TEST_F(Faults, ResumingNeedsTheFilesOfTheRun) {
+  std::string text = small;
+  text.replace(text.find("count = 1\n"), 10, "count = 1\nplacement = \"compress\"\n");
+  write_case(text);
+  const Outcome packing =
+      shell("cd " + directory_.string() + " && " HEMOMAG_BINARY " pack case.toml --out packed");
+  ASSERT_EQ(packing.code, 0) << packing.said;
+  text.replace(text.find("\"compress\""), 10, "{ file = \"packed/packed.data\" }");
+  write_case(text);
+  ASSERT_EQ(run(1, "run", "--set run.steps=100").code, 0);
+  std::string other = content(directory_ / "packed/packed.data");
+  other[other.rfind('1')] = '2';
+  std::ofstream(directory_ / "packed/packed.data") << other;
+  expect_said(run(1, "run", "--resume"), 2,
+              {"case.toml:12:13: cell.placement:", "packed/packed.data differs from the run's copy",
+               "accepted with --resume: the file the run was started with"});
+
+  text = small;
+  text.replace(text.find("[analysis]\n"), 11,
+               "[analysis]\nlayer = \"measured\"\nlayer_run = \"0.1 ms\"\n");
+  write_case(text);
+  ASSERT_EQ(run(1, "run", "--force --set run.steps=100").code, 0);
+  std::filesystem::remove(directory_ / "run/layer/summary.json");
+  expect_said(run(1, "run", "--resume"), 2, {"run/layer/summary.json: has no measured layer"});
+}
+
 TEST_F(Faults, TwoRunsDoNotShareADirectory) {
   const std::string again = command(1, "run", "--force"), resume = command(1, "run", "--resume");
   const Outcome both =

@@ -16,7 +16,7 @@ const std::vector<std::string> channel = {"units lj",
                                           "newton on",
                                           "boundary p p f",
                                           "region b block 0 12 0 12 0 12",
-                                          "create_box 1 b",
+                                          "create_box 1 b bond/types 1 extra/bond/per/atom 1",
                                           "mass * 1",
                                           "neighbor 1.0 bin",
                                           "neigh_modify every 1 delay 0 check yes",
@@ -64,6 +64,40 @@ TEST(Watch, EndsARunWhoseCarriersLeft) {
                "fix watch all hemo/watch 10 carriers all", "run 10", "group gone id 2",
                "delete_atoms group gone", "run 10"}),
       {"fix hemo/watch", "1 carriers", "began with 2"});
+}
+
+/// What one rank alone has met ends both, with the state to look at. @return what was said
+std::string inspected(const std::vector<std::string>& before_fluid) {
+  const auto directory =
+      std::filesystem::temp_directory_path() / ("hemomag_inspection_" + std::to_string(getpid()));
+  auto script = before_fluid;
+  script.insert(script.end(), {"fix fluid all hemo/fluid tau 1 plates z lower 0 0 0 upper 0 0 0",
+                               "fix watch all hemo/watch 1000 carriers all inspection " +
+                                   directory.string() + " 0.5 1e-8",
+                               "run 2000"});
+  const std::string said = outcome(script);
+  EXPECT_TRUE(std::filesystem::exists(directory / "fluid_00000.vtkhdf")) << said;
+  EXPECT_FALSE(std::filesystem::exists(directory / "fluid_00001.vtkhdf"));
+  std::filesystem::remove_all(directory);
+  return said;
+}
+
+TEST(Watch, EndsARunWhoseSpringBreaks) {
+  const auto said =
+      inspected({"create_atoms 1 single 3 3 6", "create_atoms 1 single 4 3 6", "pair_style zero 1",
+                 "pair_coeff * *", "bond_style hemo/wlc", "bond_coeff 1 1 0.5 2 1e-7 2 0 0",
+                 "create_bonds single/bond 1 1 2", "group right id 2", "fix advect all hemo/advect",
+                 "fix pull right addforce 0.5 0 0"});
+  expect_words(said, {"fix hemo/watch: step", "rank 1: bond_style hemo/wlc: the edge between atoms",
+                      "its limit is 2"});
+}
+
+TEST(Watch, EndsARunWhoseCarrierPassesAPlate) {
+  const auto said =
+      inspected({"create_atoms 1 single 3 3 3", "create_atoms 1 single 3 9 10", "pair_style zero 1",
+                 "pair_coeff * *", "group high id 2", "fix drag all hemo/drag radius 1 0.25",
+                 "fix pull high addforce 0 0 0.2"});
+  expect_words(said, {"fix hemo/watch: step", "rank 1: carrier 2 at 3", "is beyond a plate"});
 }
 
 TEST(Watch, PassesASoundRun) {
