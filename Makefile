@@ -1,6 +1,7 @@
 # make demo    install what is missing, build, run the margination demo on 2 ranks
 # make check   install what is missing, build, run every quick test
 # make build   only build
+# make ranks   run the parallel tests on the rank counts of 1, 2, 4 and 8 that make check leaves out
 # make validate  compare with theory
 BUILD ?= build
 TYPE  ?= Release
@@ -12,11 +13,11 @@ export OMPI_ALLOW_RUN_AS_ROOT = 1
 export OMPI_ALLOW_RUN_AS_ROOT_CONFIRM = 1
 endif
 demo: MPI_OPTIONS = $(shell [ "$$(nproc)" -ge $(RANKS) ] || echo --oversubscribe)
-check: export OMPI_MCA_rmaps_base_oversubscribe = 1
-check: export OMPI_MCA_hwloc_base_binding_policy = none
-check: export OMPI_MCA_mpi_yield_when_idle = 1
+check ranks: export OMPI_MCA_rmaps_base_oversubscribe = 1
+check ranks: export OMPI_MCA_hwloc_base_binding_policy = none
+check ranks: export OMPI_MCA_mpi_yield_when_idle = 1
 
-.PHONY: all bootstrap build demo check validate clean
+.PHONY: all bootstrap build demo check ranks validate clean
 all: build
 
 bootstrap:
@@ -32,6 +33,9 @@ demo: build
 
 check: build
 	ctest --test-dir $(BUILD) -L quick --output-on-failure --no-tests=error -j $$(nproc)
+
+ranks: build
+	ctest --test-dir $(BUILD) -L ranks --output-on-failure --no-tests=error
 
 validate: build
 	$(BUILD)/bin/hemomag validate

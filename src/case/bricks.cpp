@@ -2,9 +2,6 @@
 
 #include <string>
 
-#include "comm.h"
-#include "lammps.h"
-
 #include "base/error.hpp"
 #include "case/lattice_units.hpp"
 #include "case/script.hpp"
@@ -21,8 +18,7 @@ RankGrid rank_grid(const Case& c, MPI_Comm comm) {
   host.command("region box block 0 " + std::to_string(n[0]) + " 0 " + std::to_string(n[1]) + " 0 " +
                std::to_string(n[2]));
   host.command("create_box 1 box");
-  const int* ranks = host.lammps().comm->procgrid;
-  return {ranks[0], ranks[1], ranks[2]};
+  return host.rank_grid();
 }
 
 void require_bricks(const Case& c, const RankGrid& ranks) {

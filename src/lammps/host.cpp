@@ -1,5 +1,6 @@
 #include "lammps/host.hpp"
 
+#include "comm.h"
 #include "input.h"
 #include "lammps.h"
 #include "lammps/style_table.hpp"
@@ -17,6 +18,11 @@ Host::Host(std::vector<std::string> arguments, MPI_Comm comm) : arguments_(std::
 }
 
 Host::~Host() = default;
+
+std::array<int, 3> Host::rank_grid() const {
+  const int* grid = lmp_->comm->procgrid;
+  return {grid[0], grid[1], grid[2]};
+}
 
 void Host::command(const std::string& line) { lmp_->input->one(line); }
 

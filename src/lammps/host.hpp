@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -23,6 +24,8 @@ public:
   Host& operator=(const Host&) = delete;
 
   LAMMPS_NS::LAMMPS& lammps() { return *lmp_; }
+  /// Ranks along each axis of the box.
+  std::array<int, 3> rank_grid() const;
 
   /// Execute one line of LAMMPS input.
   void command(const std::string& line);
