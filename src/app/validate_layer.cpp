@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -15,13 +16,15 @@
 #include "io/figure.hpp"
 #include "io/files.hpp"
 
-// The cell-free layer and the viscosity of sheared blood between plates 24 um apart, at three
-// hematocrits, without carriers. The box is 16 x 16 um along the plates.
+// The cell-free layer and the viscosity of sheared blood without carriers: at three hematocrits
+// between plates 24 um apart, and at one against the node spacing.
 
 namespace hemomag::app {
 namespace {
 
 constexpr const char* name = "cell-free-layer";
+constexpr const char* spacing_name = "viscosity";
+constexpr double plasma = 1.2;            // mPa s
 constexpr double paper_layer = 2.8;       // um, Ht 0.30
 constexpr double measured_shear = 123.6;  // 1/s, the highest of Wells & Merrill
 
@@ -67,18 +70,28 @@ double block_error(const std::vector<std::vector<double>>& series) {
   return std::sqrt(square / (blocks - 1) / blocks);
 }
 
-Blood shear(const std::string& out, double hematocrit) {
-  char text[640], directory[512];
+/// Blood between plates, and how long it is sheared.
+struct Sheared {
+  double hematocrit;
+  std::array<int, 3> size;  ///< um
+  double dx;                ///< um
+  double time;              ///< s, averaged from its middle on
+};
+
+Blood shear(const std::string& run, const Sheared& s) {
+  // The mesh follows the nodes: 642 vertices at 0.5 um.
+  const double vertices = std::round(642 * std::pow(0.5 / s.dx, 2));
+  char text[640];
   std::snprintf(text, sizeof text,
-                "title = \"sheared blood, Ht %.2f\"\n[channel]\n"
-                "size = [\"16 um\", \"16 um\", \"24 um\"]\nplates = \"symmetric\"\n"
-                "shear_rate = \"200 s-1\"\n[fluid]\nviscosity = \"1.2 mPa.s\"\n[numerics]\n"
-                "dx = \"0.5 um\"\n[[cell]]\nvertices = 642\nhematocrit = %.2f\n"
-                "placement = \"compress\"\n[analysis]\nwalls = \"both\"\naverage_from = \"0.1 s\"\n"
-                "[run]\ntime = \"0.2 s\"\n[output]\nfields = \"never\"\nprofiles = \"0.5 ms\"\n",
-                hematocrit, hematocrit);
-  std::snprintf(directory, sizeof directory, "%s/layer_%02.0f", out.c_str(), 100 * hematocrit);
-  const std::string run = directory, file = run + ".toml";
+                "title = \"sheared blood, Ht %.2f, dx %g um\"\n[channel]\n"
+                "size = [\"%d um\", \"%d um\", \"%d um\"]\nplates = \"symmetric\"\n"
+                "shear_rate = \"200 s-1\"\n[fluid]\nviscosity = \"%g mPa.s\"\n[numerics]\n"
+                "dx = \"%g um\"\n[[cell]]\nvertices = %.0f\nhematocrit = %.2f\n"
+                "placement = \"compress\"\n[analysis]\nwalls = \"both\"\naverage_from = \"%g s\"\n"
+                "[run]\ntime = \"%g s\"\n[output]\nfields = \"never\"\nprofiles = \"0.5 ms\"\n",
+                s.hematocrit, s.dx, s.size[0], s.size[1], s.size[2], plasma, s.dx, vertices,
+                s.hematocrit, s.time / 2, s.time);
+  const std::string file = run + ".toml";
   io::replace_file(file, text);
   if (case_::run_case(case_::read_case(file, {}), {run, true}, MPI_COMM_SELF) != 0)
     throw Error(run + ": the run failed");
@@ -137,7 +150,9 @@ std::string at_ht(const Blood& b, const char* what) {
 std::vector<Finding> cell_free_layer(const std::string& out) {
   io::make_directory(out);
   std::vector<Blood> all;
-  for (const double hematocrit : {0.16, 0.30, 0.45}) all.push_back(shear(out, hematocrit));
+  for (const double hematocrit : {0.16, 0.30, 0.45})
+    all.push_back(shear(out + "/layer_" + std::to_string(std::lround(100 * hematocrit)),
+                        {hematocrit, {16, 16, 24}, 0.5, 0.2}));
   std::vector<Finding> found;
   double thicker = 0, thinner_blood = 0;
   for (std::size_t k = 0; k < all.size(); ++k) {
@@ -173,11 +188,54 @@ std::vector<Finding> cell_free_layer(const std::string& out) {
   return found;
 }
 
+/// What the kernels' width costs: the same blood on finer and finer nodes.
+std::vector<Finding> viscosity(const std::string& out) {
+  io::make_directory(out);
+  const std::vector<double> spacings{0.5, 0.4, 0.25, 0.2};
+  std::vector<Finding> found;
+  std::vector<double> relative;
+  double bound = 0, thicker = 0;
+  for (const double dx : spacings) {
+    const Blood b = shear(out + "/viscosity_" + std::to_string(std::lround(100 * dx)),
+                          {0.30, {12, 12, 16}, dx, 0.04});
+    bound = wells_merrill(b.hematocrit) / plasma;
+    relative.push_back(b.viscosity / plasma);
+    char what[96];
+    std::snprintf(what, sizeof what, "Ht %.3f, dx = %g um, viscosity over plasma's", b.hematocrit,
+                  dx);
+    found.push_back(
+        printed(spacing_name, what, relative.back(), bound, "", "Wells & Merrill 1962 at 123.6/s"));
+    if (relative.size() > 1) thicker += relative.back() >= relative[relative.size() - 2];
+  }
+  found.push_back({spacing_name, "finer nodes on which the blood is not thinner", thicker, 0, 0, "",
+                   "a kernel's width falls with the spacing"});
+  found.push_back({spacing_name, "on the finest nodes, above Wells & Merrill's",
+                   std::max(0.0, relative.back() - bound), 0, 0, "",
+                   "Wells & Merrill 1962: their blood aggregates"});
+  io::replace_file(
+      out + "/viscosity.svg",
+      io::draw_diagrams(
+          {{"sheared blood, Ht 0.29, 200/s",
+            "node spacing (um)",
+            "viscosity over plasma's",
+            {{"hemomag", "#1f77b4", spacings, relative, {}, io::Series::Style::circles},
+             {"Wells & Merrill 1962",
+              "#c0392b",
+              {0, 0.5},
+              {bound, bound},
+              {},
+              io::Series::Style::dashes}},
+            {0, 0.55},
+            {0, 5}}}));
+  return found;
+}
+
 }  // namespace
 
 std::vector<Validation> layer_validations() {
   return {{name, "cell-free layer and viscosity of sheared blood at three hematocrits",
-           cell_free_layer}};
+           cell_free_layer},
+          {spacing_name, "viscosity of sheared blood on finer and finer nodes", viscosity}};
 }
 
 }  // namespace hemomag::app

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "analysis/inside.hpp"
 #include "base/error.hpp"
 #include "case/case_file.hpp"
 #include "case/packed_file.hpp"
@@ -100,6 +101,44 @@ TEST(Packing, GrowthFillsATubeAndCarriersAreOutside) {
         EXPECT_GE(norm(d), 0.56e-6);
       }
   }
+}
+
+TEST(Packing, GrowthFillsAVesselOfVoxelsAndWormsAreOutside) {
+  auto c = case_::read_case(HEMOMAG_SOURCE_DIR "/examples/stenosis.toml",
+                            {"carrier.kind=worm", "carrier.beads=8", "carrier.count=20"});
+  auto red = case_::standard_cell(case_::CellKind::rbc);
+  red.count = 16, red.vertices = 242;
+  red.placement = case_::Placement::grow;
+  c.cells.push_back(red);
+  const auto s = case_::place(c);
+  expect_sound(s, 16);
+  EXPECT_GT(s.packing->wall_gap, 0.2e-6);
+  for (const auto& cell : s.cells)
+    for (const Vec3& x : cell.x) EXPECT_GT(case_::wall_distance(c, x), 0.2e-6);
+
+  std::vector<Vec3> beads;
+  for (const auto& worm : s.carriers) {
+    ASSERT_EQ(worm.beads.size(), 8u);
+    for (const Vec3& x : worm.beads) {
+      EXPECT_GE(case_::wall_distance(c, x), 0.25e-6);
+      beads.push_back(1e6 * x);
+    }
+  }
+  ASSERT_EQ(beads.size(), 160u);
+  std::vector<analysis::SurfaceTriangle> triangles;
+  std::int64_t before = 0;
+  for (const auto& cell : s.cells) {
+    for (const auto& t : s.models[cell.model].mesh.triangles) {
+      auto& triangle = triangles.emplace_back();
+      for (std::size_t k = 0; k < 3; ++k) {
+        triangle.x[k] = 1e6 * cell.x[static_cast<std::size_t>(t[k])];
+        triangle.tag[k] = before + t[k];
+      }
+    }
+    before += static_cast<std::int64_t>(cell.x.size());
+  }
+  const Vec3 box{24, 48, 24};
+  for (const int times : analysis::enclosure(beads, triangles, {box, true})) EXPECT_EQ(times, 0);
 }
 
 TEST(Packing, KindsArePackedTogether) {
