@@ -440,6 +440,8 @@ TEST_F(BadInput, Overrides) {
   refused(good, "--set carrier.radus:", "is not a key", "--set 'carrier.radus=3 nm'");
   refused(good, "--set nonsense:", "has no value", "--set nonsense");
   refused(good, "--set carrier.7.radius:", "entries", "--set 'carrier.7.radius=3 nm'");
+  refused(good, "--set carrier..radius:", "is not a key", "--set 'carrier..radius=3 nm'");
+  refused(good, "--set .radius:", "is not a key", "--set '.radius=3 nm'");
 }
 
 /// `good` with other lines in place of its field, the first of which is on line 13.
