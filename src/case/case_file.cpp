@@ -13,17 +13,19 @@
 #include "case/read_magnetic.hpp"
 #include "case/toml_table.hpp"
 #include "case/vessel.hpp"
+#include "io/files.hpp"
 
 namespace hemomag::case_ {
 namespace {
 
 constexpr double default_profiles = 5e-3;  // s, between plates
+constexpr double most_nodes = 2e9;
 
 std::string read_text(const std::string& path) {
   std::ifstream file(path);
   std::stringstream text;
-  if (file) text << file.rdbuf();
-  if (!file || file.bad())
+  text << file.rdbuf();
+  if (!io::is_readable(path) || file.bad())
     throw CaseError(path + ":1:1: file: cannot be read; a readable TOML file is expected");
   return text.str();
 }
@@ -39,12 +41,13 @@ toml::table parse(const std::string& text, const std::string& path) {
 }
 
 /// The table a --set path leads to, made if the schema has it.
-toml::table& descend(toml::table& root, const std::vector<std::string>& parts,
+toml::table& descend(Source& source, const std::vector<std::string>& parts,
                      const std::string& key) {
-  toml::node* at = &root;
+  toml::node* at = &source.root;
   for (std::size_t k = 0; k + 1 < parts.size(); ++k) {
     if (auto* list = at->as_array()) {
-      const bool number = parts[k].find_first_not_of("0123456789") == std::string::npos;
+      const bool number =
+          !parts[k].empty() && parts[k].find_first_not_of("0123456789") == std::string::npos;
       const std::size_t index = number ? std::stoul(parts[k].substr(0, 9)) : 0;
       if (index >= list->size() || (!number && list->size() != 1))
         throw CaseError("--set " + key + ": there are " + std::to_string(list->size()) +
@@ -54,8 +57,9 @@ toml::table& descend(toml::table& root, const std::vector<std::string>& parts,
     }
     auto* table = at->as_table();
     if (!table) throw CaseError("--set " + key + ": is not a key; accepted: table.key");
-    table->insert(parts[k], toml::table{});  // keeps what is there
+    const bool made = table->insert(parts[k], toml::table{}).second;  // keeps what is there
     at = table->get(parts[k]);
+    if (made) source.overridden[at] = key;
   }
   if (auto* list = at->as_array()) {
     if (list->size() != 1)
@@ -75,7 +79,7 @@ void apply_override(Source& source, const std::string& override_text) {
   std::vector<std::string> parts;
   std::stringstream path(key);
   for (std::string part; std::getline(path, part, '.');) parts.push_back(part);
-  toml::table& table = descend(source.root, parts, key);
+  toml::table& table = descend(source, parts, key);
   // A TOML value, or else a plain string: --set magnetic.B0=0.05 T
   try {
     toml::table parsed = toml::parse("v = " + value);
@@ -149,6 +153,15 @@ void check_size(const Case& c, const Table& channel) {
       channel.fail("size", text);
     }
   }
+  double total = 1;
+  for (const int n : nodes(c)) total *= n;
+  if (total <= most_nodes) return;
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "is a box of %.3g nodes; accepted: at most %.3g, which take 420 GB (see "
+                "numerics.dx)",
+                total, most_nodes);
+  channel.fail("size", text);
 }
 
 /// tau and dx leave one freedom: the time step, by one of three keys.
@@ -186,7 +199,7 @@ void read_numerics(Case& c, const Table& t) {
 /// @throws CaseError at the key when it cannot be read
 std::string surface_path(const Table& t, const char* key, const std::string& case_path) {
   const auto path = (std::filesystem::path(case_path).parent_path() / t.word(key)).string();
-  if (!std::filesystem::is_regular_file(path) || !std::ifstream(path))
+  if (!io::is_readable(path))
     t.fail(key, path + ": cannot be read; a readable STL, OFF or PLY file is expected");
   return path;
 }
@@ -270,7 +283,7 @@ void read_placement(Cell& cell, const Table& t, const std::string& case_path) {
       t.fail("placement", "is a table of other than a file; accepted: { file = \"packed.data\" }");
     cell.placement = Placement::file;
     cell.packed = (std::filesystem::path(case_path).parent_path() / *name).string();
-    if (!std::filesystem::is_regular_file(cell.packed) || !std::ifstream(cell.packed))
+    if (!io::is_readable(cell.packed))
       t.fail("placement",
              cell.packed + ": cannot be read; accepted: a state that hemomag pack wrote");
     return;
@@ -404,6 +417,16 @@ void read_analysis(Case& c, const Table& t) {
     t.fail("walls", "needs a tube or voxels; accepted: \"lower\", \"both\"");
 }
 
+void check_steps(const Case& c, const Table& run) {
+  const double steps =
+      c.run.time ? *c.run.time / lattice_units(c).dt : static_cast<double>(*c.run.steps);
+  if (steps <= most_steps) return;
+  char text[120];
+  std::snprintf(text, sizeof text, "makes %.4g steps; accepted: at most %ld of them", steps,
+                most_steps);
+  run.fail(c.run.time ? "time" : "steps", text);
+}
+
 void read_run(Case& c, const Table& run, const Table& analysis) {
   if (run.has("time") && run.has("steps"))
     run.fail("steps", "excludes time; accepted: one of the two");
@@ -411,6 +434,7 @@ void read_run(Case& c, const Table& run, const Table& analysis) {
     run.missing("time", "is missing; time (e.g. \"1.4 s\") or steps is required");
   c.run.time = run.optional_quantity("time");
   if (run.has("steps")) c.run.steps = static_cast<long>(run.number("steps"));
+  check_steps(c, run);
   if (run.is_word("checkpoint", "never"))
     c.run.checkpoint.reset();
   else

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <numbers>
@@ -18,6 +19,7 @@ namespace {
 
 constexpr double reference_vertices = 3286;  // for which contact energies are given
 constexpr std::size_t most_vertices = 100000;
+constexpr double most_cells = 1e7;  // as of cell.count
 
 membrane::RestShape rest_shape(const Cell& cell) {
   switch (cell.kind) {
@@ -118,6 +120,16 @@ CellModel make_model(const Cell& cell, std::uint64_t seed) {
   return m;
 }
 
+/// A mesh_unit that was mistaken asks for more cells than can be counted.
+void check_count(const Case& c, std::size_t entry, const CellModel& model) {
+  const double count = c.cells[entry].hematocrit.value_or(0) * fluid_volume(c) / model.volume;
+  if (c.cells[entry].count || count <= most_cells) return;
+  char text[120];
+  std::snprintf(text, sizeof text, "makes %.3g cells; accepted: at most %g, see cell.mesh_unit",
+                count, most_cells);
+  throw Error(position(c, entry_path("cell", entry, c.cells.size()) + ".hematocrit") + ": " + text);
+}
+
 }  // namespace
 
 Cell standard_cell(CellKind kind) {
@@ -167,6 +179,7 @@ std::vector<CellModel> cell_models(const Case& c) {
       throw Error(position(c, key + (c.cells[k].surface ? ".mesh" : ".vertices")) + ": " +
                   e.what() + "; accepted: another surface, number of vertices or seed");
     }
+    check_count(c, k, models.back());
   }
   return models;
 }

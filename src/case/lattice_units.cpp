@@ -83,7 +83,7 @@ std::array<double, 2> plate_velocity(const Case& c) {
 }
 
 long steps_in(double interval, const LatticeUnits& units) {
-  return std::max(1L, std::lround(interval / units.dt));
+  return std::max(1L, std::lround(std::min(interval / units.dt, 1.0 * most_steps)));
 }
 
 long steps(const Case& c) {

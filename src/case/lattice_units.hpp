@@ -57,7 +57,10 @@ std::array<int, 3> nodes(const Case& c);
 /// Velocity of the lower and upper plate along y [m/s].
 std::array<double, 2> plate_velocity(const Case& c);
 
-/// Steps of the run, and of an interval of simulated time [s] (at least one).
+/// LAMMPS counts the steps of a run in an int.
+inline constexpr long most_steps = 2147483647;
+
+/// Steps of the run, and of an interval of simulated time [s] (at least one, at most `most_steps`).
 long steps(const Case& c);
 long steps_in(double interval, const LatticeUnits& units);
 

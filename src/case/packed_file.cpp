@@ -25,13 +25,13 @@ public:
     counts();
     box();
     section("bond", "coeffs");
-    for (std::size_t k = 0; k < bond_types_; ++k) file_.rest_of_line();
+    pass_over(bond_types_);
     triangle_areas();
     section("dihedral", "coeffs");
-    for (std::size_t k = 0; k < dihedral_types_; ++k) file_.rest_of_line();
+    pass_over(dihedral_types_);
     auto cells = atoms();
     section("bonds");
-    for (std::size_t k = 0; k < bonds_; ++k) file_.rest_of_line();
+    pass_over(bonds_);
     triangles(cells);
     return cells;
   }
@@ -51,6 +51,14 @@ private:
     if (second) file_.expect(second);
     file_.rest_of_line();
     file_.skip_blanks();
+  }
+
+  /// Lines that the case knows itself.
+  void pass_over(std::size_t lines) {
+    for (std::size_t k = 0; k < lines; ++k) {
+      if (file_.left() == 0) file_.fail("the file ends before " + std::to_string(lines) + " lines");
+      file_.rest_of_line();
+    }
   }
 
   void title() {

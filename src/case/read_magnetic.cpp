@@ -5,6 +5,7 @@
 
 #include "case/external_field.hpp"
 #include "io/field_table_file.hpp"
+#include "io/files.hpp"
 #include "magnetic/frame.hpp"
 
 namespace hemomag::case_ {
@@ -160,7 +161,7 @@ void read_conductor(MagneticSource& s, const Table& t) {
 void read_table(MagneticSource& s, const Table& t, const std::string& case_path) {
   t.require("file");
   s.file = (std::filesystem::path(case_path).parent_path() / t.word("file")).string();
-  if (!std::filesystem::is_regular_file(s.file))
+  if (!io::is_readable(s.file))
     t.fail("file", s.file + ": cannot be read; a readable CSV file of B on a grid is expected");
   try {
     s.table = std::make_shared<const lattice::FieldTable>(io::read_field_table(s.file));

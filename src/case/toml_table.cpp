@@ -16,7 +16,9 @@ std::string Source::place(const toml::node& node) const {
 void Source::fail(const toml::node& node, const std::string& key,
                   const std::string& problem) const {
   const auto set = overridden.find(&node);
-  if (set != overridden.end()) throw CaseError("--set " + set->second + ": " + problem);
+  if (set != overridden.end())
+    throw CaseError("--set " + set->second + ": " + (key == set->second ? "" : key + ": ") +
+                    problem);
   throw CaseError(place(node) + ": " + key + ": " + problem);
 }
 

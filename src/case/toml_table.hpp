@@ -20,7 +20,8 @@ struct Source {
 
   /// FILE:LINE:COL of a node.
   std::string place(const toml::node& node) const;
-  /// @throws CaseError "FILE:LINE:COL: key: problem", or "--set key: problem"
+  /// @throws CaseError "FILE:LINE:COL: key: problem", or "--set key: problem", with
+  /// the key at fault if it is another one
   [[noreturn]] void fail(const toml::node& node, const std::string& key,
                          const std::string& problem) const;
 };

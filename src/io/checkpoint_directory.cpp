@@ -21,6 +21,7 @@ using nlohmann::json;
 
 constexpr const char* manifest = "manifest.json";
 constexpr int format = 1;
+constexpr int deepest = 4;  // a manifest nests less, and what is nested is written by recursion
 
 std::string text(std::uint64_t sum) {
   char digits[17];
@@ -63,11 +64,15 @@ json read_manifest(const std::string& directory) {
   if (!file) throw FileError(directory + ": has no " + manifest);
   json m;
   try {
-    m = json::parse(file);
+    m = json::parse(file, [&](int depth, json::parse_event_t, const json&) {
+      if (depth > deepest) throw FileError(path + ": is damaged");
+      return true;
+    });
     if (m.at("seal").get<std::string>() != seal(m)) throw FileError(path + ": is damaged");
-    if (m.at("format").get<int>() != format)
+    if (m.at("format") != format)
       throw FileError(path + ": is of another format than this version reads");
-    static_cast<void>(m.at("step").get<long>() + m.at("ranks").get<int>());
+    for (const char* count : {"step", "ranks"})
+      if (!m.at(count).is_number_integer()) throw FileError(path + ": is damaged");
     static_cast<void>(m.at("wall_s").get<double>());
     for (const auto& f : m.at("files"))
       static_cast<void>(f.at("name").get<std::string>() + f.at("xxh3").get<std::string>());
@@ -145,20 +150,22 @@ WholeCheckpoint find_checkpoint(MPI_Comm comm, const std::string& directory) {
   MPI_Comm_rank(comm, &rank);
   // Rank 0 reads what there is; all get it as text.
   json found{{"candidates", json::array()}, {"refused", json::array()}};
+  const std::vector<std::string> names{directory, unfinished(directory), directory + ".previous"};
   if (rank == 0)
-    for (const auto& name : {directory, unfinished(directory), directory + ".previous"}) {
-      if (!fs::exists(name)) continue;
+    for (std::size_t k = 0; k < names.size(); ++k) {
+      if (!fs::exists(names[k])) continue;
       try {
-        found["candidates"].push_back({{"directory", name}, {"manifest", read_manifest(name)}});
+        found["candidates"].push_back({{"name", k}, {"manifest", read_manifest(names[k])}});
       } catch (const FileError& e) {
         found["refused"].push_back(e.what());
       }
     }
-  found = json::parse(told_by_rank_0(comm, found.dump()));
+  found =
+      json::parse(told_by_rank_0(comm, found.dump(-1, ' ', false, json::error_handler_t::replace)));
 
   std::vector<Candidate> candidates;
   for (const auto& c : found["candidates"])
-    candidates.push_back({c.at("directory"), c.at("manifest")});
+    candidates.push_back({names[c.at("name").get<std::size_t>()], c.at("manifest")});
   std::stable_sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) {
     return a.manifest.at("step").template get<long>() > b.manifest.at("step").template get<long>();
   });

@@ -47,6 +47,11 @@ void copy_file(const std::string& from, const std::string& to) {
   if (error) throw FileError(to + ": copying " + from + " failed: " + error.message());
 }
 
+bool is_readable(const std::string& path) {
+  std::error_code error;  // a name that is too long is no file either
+  return std::filesystem::is_regular_file(path, error) && std::ifstream(path);
+}
+
 std::string name_of(const std::string& path) {
   return std::filesystem::path(path).filename().string();
 }

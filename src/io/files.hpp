@@ -18,6 +18,9 @@ void make_directory(const std::string& path);
 /// Copy a file as it is. @throws FileError with path and reason
 void copy_file(const std::string& from, const std::string& to);
 
+/// Whether a path leads to a file that can be read, not to a directory or a device.
+bool is_readable(const std::string& path);
+
 /// Name of a file without the path to it.
 std::string name_of(const std::string& path);
 

@@ -26,13 +26,18 @@ public:
   template <class T> std::vector<T> dataset(const std::string& name, hid_t type) const {
     const hid_t data = H5Dopen2(file_, ("VTKHDF/" + name).c_str(), H5P_DEFAULT);
     if (data < 0) throw Error(path_ + ": has no " + name);
-    const hid_t space = H5Dget_space(data);
-    std::vector<T> values(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
+    const hid_t space = H5Dget_space(data), stored = H5Dget_type(data);
+    const hssize_t count = H5Sget_simple_extent_npoints(space);
+    // Memory is taken for what the file holds, not for what it says.
+    const bool whole = count >= 0 && H5Dget_storage_size(data) / H5Tget_size(stored) >=
+                                         static_cast<hsize_t>(count);
+    std::vector<T> values(whole ? static_cast<std::size_t>(count) : 0);
     const herr_t status =
         values.empty() ? 0 : H5Dread(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+    H5Tclose(stored);
     H5Sclose(space);
     H5Dclose(data);
-    if (status < 0) throw Error(path_ + ": " + name + " cannot be read");
+    if (!whole || status < 0) throw Error(path_ + ": " + name + " cannot be read");
     return values;
   }
 
@@ -62,14 +67,17 @@ VectorImage read_image(const std::string& path, const std::string& array) {
   const Reader file(path);
   const auto extent = file.attribute<int, 6>("WholeExtent", H5T_NATIVE_INT);
   VectorImage image;
-  std::size_t count = 1;
-  for (std::size_t d = 0; d < 3; ++d) {
-    image.nodes[d] = extent[2 * d + 1] - extent[2 * d] + 1;
-    count *= static_cast<std::size_t>(std::max(image.nodes[d], 0));
-  }
   image.spacing = file.attribute<double, 3>("Spacing", H5T_NATIVE_DOUBLE)[0];
   const auto values = file.dataset<double>("PointData/" + array, H5T_NATIVE_DOUBLE);
-  if (values.size() != 3 * count || count == 0) file.fail(array + " is not a vector on every node");
+  std::size_t count = 1;
+  for (std::size_t d = 0; d < 3; ++d) {
+    const long nodes = long{extent[2 * d + 1]} - extent[2 * d] + 1;
+    if (nodes < 1 || static_cast<std::size_t>(nodes) > values.size())
+      file.fail(array + " is not a vector on every node");
+    image.nodes[d] = static_cast<int>(nodes);
+    count = std::min(count * static_cast<std::size_t>(nodes), values.size());
+  }
+  if (values.size() != 3 * count) file.fail(array + " is not a vector on every node");
   for (std::size_t k = 0; k < count; ++k)
     image.values.push_back({values[3 * k], values[3 * k + 1], values[3 * k + 2]});
   return image;
@@ -88,15 +96,18 @@ TriangleGrid read_triangles(const std::string& path) {
   std::int64_t first_point = 0;
   std::size_t at = 0;
   for (std::size_t part = 0; part < points_of.size() && part < corners_of.size(); ++part) {
+    if (points_of[part] < 0 ||
+        points_of[part] > static_cast<std::int64_t>(grid.points.size()) - first_point)
+      file.fail("counts points that it does not have");
+    if (corners_of[part] < 0) file.fail("is not made of triangles");
     const std::size_t end = at + static_cast<std::size_t>(corners_of[part]);
     if (end > corners.size() || corners_of[part] % 3 != 0) file.fail("is not made of triangles");
     for (; at < end; at += 3) {
       std::array<std::int64_t, 3> t{};
       for (std::size_t k = 0; k < 3; ++k) {
-        t[k] = first_point + corners[at + k];
-        if (corners[at + k] < 0 || corners[at + k] >= points_of[part] ||
-            t[k] >= static_cast<std::int64_t>(grid.points.size()))
+        if (corners[at + k] < 0 || corners[at + k] >= points_of[part])
           file.fail("names points that it does not have");
+        t[k] = first_point + corners[at + k];
       }
       grid.triangles.push_back(t);
     }

@@ -5,6 +5,9 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <regex>
+#include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -35,6 +38,39 @@ struct Outcome {
   int code;
   std::string error;
 };
+
+std::string content(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// FILE:LINE:COL, or the override at fault; the key, or what is wrong with the file; the rest.
+const std::regex form(R"((case\.toml:[1-9]\d*:[1-9]\d*: |--set )[^ :]+: [^\n]+)");
+
+/// Every line of an error says where, which key, what is wrong and what is accepted.
+void expect_lines_of_the_form(const std::string& error) {
+  std::istringstream lines(error);
+  for (std::string line; std::getline(lines, line);) {
+    EXPECT_TRUE(std::regex_match(line, form)) << line;
+    const bool says_what_is_accepted = line.find("accepted") != std::string::npos ||
+                                       line.find("expected") != std::string::npos ||
+                                       line.find("required") != std::string::npos;
+    EXPECT_TRUE(says_what_is_accepted) << line;
+  }
+}
+
+/// Malformed inputs that were refused as they must be: the case, its options and its files.
+std::set<std::string> refused_inputs;
+
+/// The promise of docs/reliability.md, counted when the executable runs as a whole, as under ctest.
+class Count : public testing::Environment {
+  void TearDown() override {
+    if (GTEST_FLAG_GET(filter) != "*") return;
+    std::printf("%zu distinct malformed inputs refused\n", refused_inputs.size());
+    EXPECT_GE(refused_inputs.size(), 120u);
+  }
+};
+const auto* const count = testing::AddGlobalTestEnvironment(new Count);
 
 class BadInput : public testing::Test {
 protected:
@@ -77,18 +113,23 @@ protected:
   std::string refused(const std::string& text, const std::string& place, const std::string& says,
                       const std::string& options = "") {
     const Outcome outcome = run(text, options);
-    EXPECT_EQ(outcome.code, 2) << outcome.error;
     EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
     EXPECT_EQ(outcome.error.rfind(place, 0), 0u)
         << "expected " << place << " got " << outcome.error;
+    expect_refusal(outcome, says, text + options);
+    return outcome.error;
+  }
+
+  /// @param input  what was refused, beside the files of the directory
+  void expect_refusal(const Outcome& outcome, const std::string& says, std::string input) {
+    EXPECT_EQ(outcome.code, 2) << outcome.error;
     EXPECT_NE(outcome.error.find(says), std::string::npos)
         << "expected " << says << " got " << outcome.error;
-    const bool says_what = outcome.error.find("accepted") != std::string::npos ||
-                           outcome.error.find("expected") != std::string::npos ||
-                           outcome.error.find("required") != std::string::npos;
-    EXPECT_TRUE(says_what) << outcome.error;
+    expect_lines_of_the_form(outcome.error);
     EXPECT_FALSE(std::filesystem::exists(directory_ / "result"));
-    return outcome.error;
+    for (const auto& entry : std::filesystem::directory_iterator(directory_))
+      if (entry.is_regular_file()) input += content(entry.path());
+    if (!HasFailure()) refused_inputs.insert(input);
   }
 
   std::filesystem::path directory_;
@@ -368,12 +409,10 @@ TEST_F(BadInput, SurfacesOfCells) {
   refused(with(file + "\nstress_free = \"sphere\""),
           "case.toml:12:15: cell.stress_free:", "without a mesh");
   // A unit that was mistaken: too large for the box, and for the nodes.
-  const Outcome outcome = run(with(file + "\nmesh_unit = \"1 mm\""));
-  EXPECT_EQ(outcome.code, 2);
-  EXPECT_NE(outcome.error.find("case.toml:9:1: cell: cell size"), std::string::npos)
-      << outcome.error;
+  const std::string mistaken = with(file + "\nmesh_unit = \"1 mm\"");
+  const Outcome outcome = run(mistaken);
+  expect_refusal(outcome, "case.toml:9:1: cell: cell size", mistaken);
   EXPECT_NE(outcome.error.find("see cell.diameter or cell.mesh_unit"), std::string::npos);
-  EXPECT_FALSE(std::filesystem::exists(directory_ / "result"));
 }
 
 TEST_F(BadInput, ASurfaceOfOnesOwnRunsAndItsDirectoryIsTheRun) {
@@ -389,10 +428,7 @@ TEST_F(BadInput, ASurfaceOfOnesOwnRunsAndItsDirectoryIsTheRun) {
       changed("[[carrier]]",
               "[[cell]]\ncount = 2\nmesh = \"shapes/cube.off\"\nkind = \"white\"\n[[carrier]]"));
   EXPECT_EQ(first.code, 0) << first.error;
-  const auto read = [&](const std::string& name) {
-    std::ifstream file(directory_ / name);
-    return std::string(std::istreambuf_iterator<char>(file), {});
-  };
+  const auto read = [&](const std::string& name) { return content(directory_ / name); };
   EXPECT_EQ(read("result/cell.off"), read("shapes/cube.off"));
   EXPECT_NE(read("result/cells.data").find("31 atoms"), std::string::npos) << "2 x 14 and 3";
   const auto data = read("result/cells.data");
@@ -408,6 +444,8 @@ TEST_F(BadInput, Overrides) {
   refused(good, "--set carrier.radus:", "is not a key", "--set 'carrier.radus=3 nm'");
   refused(good, "--set nonsense:", "has no value", "--set nonsense");
   refused(good, "--set carrier.7.radius:", "entries", "--set 'carrier.7.radius=3 nm'");
+  refused(good, "--set carrier..radius:", "is not a key", "--set 'carrier..radius=3 nm'");
+  refused(good, "--set .radius:", "is not a key", "--set '.radius=3 nm'");
 }
 
 /// `good` with other lines in place of its field, the first of which is on line 13.
@@ -534,9 +572,8 @@ TEST_F(BadInput, SourcesThatReachIntoTheChannel) {
   refused(field_with(
               "field = \"wire\"\nposition = [\"4 um\", \"4 um\", \"4 um\"]\ncurrent = \"1 A\"\n"),
           "case.toml:12:1: magnetic:", "outside the box");
-  const Outcome outcome = run(moved(block, "-501 um"), "--set 'magnetic.remanence=100 T'");
-  EXPECT_EQ(outcome.code, 2);
-  EXPECT_NE(outcome.error.find("drift"), std::string::npos) << outcome.error;
+  const std::string near = moved(block, "-501 um");
+  expect_refusal(run(near, "--set 'magnetic.remanence=100 T'"), "drift", near);
 }
 
 TEST_F(BadInput, Tables) {
@@ -559,8 +596,7 @@ TEST_F(BadInput, Tables) {
   const Outcome outcome = run(table);
   EXPECT_EQ(outcome.code, 0) << outcome.error;
   EXPECT_TRUE(std::filesystem::exists(directory_ / "result" / "magnetic.csv")) << "a copy";
-  std::ifstream kept(directory_ / "result" / "case.toml");
-  const std::string text{std::istreambuf_iterator<char>(kept), {}};
+  const std::string text = content(directory_ / "result" / "case.toml");
   EXPECT_NE(text.find("magnetic.csv"), std::string::npos) << text;
 }
 
@@ -590,12 +626,10 @@ TEST_F(BadInput, WhatCannotWorkIsRefusedByTheCard) {
   refused(changed("shear_rate = \"200 s-1\"", "shear_rate = \"200 s-1\"\n[contact]\nepsilon = 0"),
           "case.toml:6:11: contact.epsilon:", "out of range");
   // A field that is too strong breaks several limits at once: one line for each.
-  const Outcome outcome = run(changed("\"0.05 T\"", "\"2 T\""));
-  EXPECT_EQ(outcome.code, 2);
-  EXPECT_NE(outcome.error.find("case.toml:9:1: carrier: drift"), std::string::npos)
-      << outcome.error;
+  const std::string strong = changed("\"0.05 T\"", "\"2 T\"");
+  const Outcome outcome = run(strong);
+  expect_refusal(outcome, "case.toml:9:1: carrier: drift", strong);
   EXPECT_NE(outcome.error.find("at most"), std::string::npos) << outcome.error;
-  EXPECT_FALSE(std::filesystem::exists(directory_ / "result"));
 }
 
 TEST_F(BadInput, TooManyCells) {
@@ -636,6 +670,290 @@ TEST_F(BadInput, MoreRanksThanTheChannelHasRoomFor) {
             std::string::npos)
       << said;
   EXPECT_FALSE(std::filesystem::exists(directory_ / "result"));
+}
+
+/// A change of `good`, and how it is refused.
+struct Malformed {
+  const char *from, *to, *place, *says;
+};
+
+TEST_F(BadInput, UnitsOfAnotherDimensionMissingOrUnknown) {
+  for (const auto& [from, to, place, says] : std::vector<Malformed>{
+           {"1.2 mPa.s", "1.2 mPa", "6:13: fluid.viscosity", "is not a viscosity"},
+           {"1.2 mPa.s", "1.2 m2/s", "6:13: fluid.viscosity", "is not a viscosity"},
+           {"1.2 mPa.s", "1.2", "6:13: fluid.viscosity", "has no unit"},
+           {"1.2 mPa.s", "1.2 mPas", "6:13: fluid.viscosity", "is not a unit"},
+           {"\"1.2 mPa.s\"", "0.0012", "6:13: fluid.viscosity", "without a unit"},
+           {"\"0.5 um\"", "0.5", "8:6: numerics.dx", "without a unit"},
+           {"0.5 um", "0.5 u", "8:6: numerics.dx", "is not a length"},
+           {"0.5 um", "0.5 um2", "8:6: numerics.dx", "is not a length"},
+           {"0.5 um", "0.5 um um", "8:6: numerics.dx", "is not a length"},
+           {"0.5 um", "0.5um^", "8:6: numerics.dx", "is not a unit"},
+           {"0.5 um", "0,5 um", "8:6: numerics.dx", "is not a unit"},
+           {"0.5 um", "", "8:6: numerics.dx", "does not begin with a number"},
+           {"200 s-1", "200 s", "4:14: channel.shear_rate", "is not a rate"},
+           {"200 s-1", "200 degrees/s", "4:14: channel.shear_rate", "is not a unit"},
+           {"0.05 T", "0.05 A/m", "13:6: magnetic.B0", "is not a magnetic field"},
+           {"0.05 T", "0.05 tesla teslas", "13:6: magnetic.B0", "is not a magnetic field"},
+           {"steps = 10", "time = \"1 m\"", "15:8: run.time", "is not a time"},
+           {"steps = 10", "time = 1", "15:8: run.time", "without a unit"},
+           {"steps = 10", "steps = 9\ncheckpoint = \"10 m\"", "16:14: run.checkpoint",
+            "is not a time"},
+           {"[run]", "[output]\nseries = \"1 um\"\n[run]", "15:10: output.series", "is not a time"},
+           {"[run]", "[analysis]\nlayer = \"3 s\"\n[run]", "15:9: analysis.layer",
+            "is not a length"},
+           {"[run]", "[contact]\nmorse_beta = \"3 um\"\n[run]", "15:14: contact.morse_beta",
+            "is not an inverse length"},
+           {"[[carrier]]", "[[cell]]\nshear_modulus = \"6 uN\"\n[[carrier]]",
+            "10:17: cell.shear_modulus", "is not a tension"},
+           {"[[carrier]]", "[[cell]]\nbending_modulus = \"5 N\"\n[[carrier]]",
+            "10:19: cell.bending_modulus", "is not an energy"},
+           {"[[carrier]]", "[[cell]]\nvolume_modulus = \"249 N\"\n[[carrier]]",
+            "10:18: cell.volume_modulus", "is not a pressure"}})
+    refused(changed(from, to), std::string("case.toml:") + place + ": ", says);
+}
+
+TEST_F(BadInput, NumbersThatAreNoneOrWithoutEnd) {
+  for (const auto& [from, to, place, says] : std::vector<Malformed>{
+           {"0.5 um", "nan um", "8:6: numerics.dx", "does not begin with a number"},
+           {"0.5 um", "1e400 um", "8:6: numerics.dx", "does not begin with a number"},
+           {"0.5 um", "1e-400 um", "8:6: numerics.dx", "does not begin with a number"},
+           {"0.5 um", "1e308 Gm", "8:6: numerics.dx", "is out of range"},
+           {"0.05 T", "-inf T", "13:6: magnetic.B0", "does not begin with a number"},
+           {"0.5 um\"", "0.5 um\"\ntau = nan", "9:7: numerics.tau", "is out of range"},
+           {"0.5 um\"", "0.5 um\"\ntau = inf", "9:7: numerics.tau", "is out of range"},
+           {"0.5 um\"", "0.5 um\"\ncell_reynolds = nan", "9:17: numerics.cell_reynolds",
+            "is out of range"},
+           {"0.5 um\"", "0.5 um\"\ncell_reynolds = inf", "9:17: numerics.cell_reynolds",
+            "is out of range"},
+           {"count = 3", "susceptibility = inf", "10:18: carrier.susceptibility",
+            "is out of range"},
+           {"count = 3", "magnetic_fraction = nan", "10:21: carrier.magnetic_fraction",
+            "is out of range"},
+           {"B0 =", "axis = [nan, 0, 1]\nB0 =", "13:8: magnetic.axis", "has no direction"},
+           {"[[carrier]]", "[[cell]]\nhematocrit = nan\n[[carrier]]", "10:14: cell.hematocrit",
+            "is out of range"},
+           {"[run]", "[contact]\nepsilon = inf\n[run]", "15:11: contact.epsilon",
+            "is out of range"}})
+    refused(changed(from, to), std::string("case.toml:") + place + ": ", says);
+}
+
+TEST_F(BadInput, CountsBelowZeroOrBeyondCounting) {
+  for (const auto& [from, to, place, says] : std::vector<Malformed>{
+           {"count = 3", "count = 3000000000", "10:9: carrier.count", "is out of range"},
+           {"count = 3", "kind = \"worm\"\nbeads = -8", "11:9: carrier.beads", "is out of range"},
+           {"count = 3", "kind = \"worm\"\nbeads = 1", "11:9: carrier.beads", "is out of range"},
+           {"steps = 10", "steps = -10", "15:9: run.steps", "is out of range"},
+           {"steps = 10", "steps = 9223372036854775807", "15:9: run.steps", "is out of range"},
+           {"steps = 10", "steps = 9223372036854775808", "15:", "TOML"},
+           {"steps = 10", "steps = 2147483648", "15:9: run.steps", "at most 2147483647"},
+           {"steps = 10", "time = \"1e30 s\"", "15:8: run.time", "at most 2147483647"},
+           {"steps = 10", "time = \"-1 s\"", "15:8: run.time", "is out of range"},
+           {"title = \"case\"", "seed = -1", "1:8: seed", "is out of range"},
+           {"[[carrier]]", "[[cell]]\ncount = -1\n[[carrier]]", "10:9: cell.count",
+            "is out of range"},
+           {"[[carrier]]", "[[cell]]\nvertices = -162\n[[carrier]]", "10:12: cell.vertices",
+            "is out of range"},
+           {"[[carrier]]", "[[cell]]\nvertices = 100001\n[[carrier]]", "10:12: cell.vertices",
+            "is out of range"},
+           {"[\"8 um\", \"8 um\", \"8 um\"]", "[\"8 um\", \"-8 um\", \"8 um\"]",
+            "3:8: channel.size", "is out of range"},
+           {"[\"8 um\", \"8 um\", \"8 um\"]", "[\"1 mm\", \"1 mm\", \"1 mm\"]", "3:8: channel.size",
+            "a box of 8e+09 nodes"},
+           {"[\"8 um\", \"8 um\", \"8 um\"]", "[\"8 um\", \"8 um\", \"1.5 um\"]",
+            "3:8: channel.size", "at least 4"}})
+    refused(changed(from, to), std::string("case.toml:") + place, says);
+}
+
+TEST_F(BadInput, ValuesOfAnotherType) {
+  for (const auto& [from, to, place, says] : std::vector<Malformed>{
+           {"count = 3", "count = true", "10:9: carrier.count", "true or false is not"},
+           {"count = 3", "count = [3]", "10:9: carrier.count", "a list is not"},
+           {"count = 3", "feedback = \"no\"", "10:12: carrier.feedback", "a string is not"},
+           {"count = 3", "feedback = 0", "10:12: carrier.feedback", "a whole number is not"},
+           {"\"125 nm\"", "[\"125 nm\"]", "11:10: carrier.radius", "a list without a unit"},
+           {"\"125 nm\"", "{ nm = 125 }", "11:10: carrier.radius", "a table without a unit"},
+           {"\"0.5 um\"", "2020-01-01", "8:6: numerics.dx", "a date or time without a unit"},
+           {"\"200 s-1\"", "true", "4:14: channel.shear_rate", "true or false without a unit"},
+           {"steps = 10", "steps = 10.0", "15:9: run.steps", "a number is not"},
+           {"steps = 10", "steps = \"10\"", "15:9: run.steps", "a string is not"},
+           {"steps = 10", "steps = 10\ncheckpoint = false", "16:14: run.checkpoint",
+            "true or false without a unit"},
+           {"\"case\"", "[\"case\"]", "1:9: title", "a list is not"},
+           {"title = \"case\"", "seed = \"one\"", "1:8: seed", "a string is not"},
+           {"title = \"case\"", "fluid = 3\ntitle = \"case\"", "6:1: syntax", "redefine"},
+           {"[run]\nsteps = 10", "[[run]]\nsteps = 10", "14:1: run", "a [run] table is expected"},
+           {"[[carrier]]\n", "carrier.0 = 3\n[[carriers]]\n", "9:1: numerics.carrier",
+            "is not a key"},
+           {"B0 = \"0.05 T\"", "axis = [0, 1]", "13:8: magnetic.axis", "three numbers"},
+           {"B0 = \"0.05 T\"", "dipoles = \"none\"", "13:11: magnetic.dipoles", "true or false"},
+           {"0.5 um\"", "0.5 um\"\nscheme = 3", "9:10: numerics.scheme", "a whole number is not"},
+           {"200 s-1\"", "200 s-1\"\nboundary = true", "5:12: channel.boundary",
+            "true or false is not"}})
+    refused(changed(from, to), std::string("case.toml:") + place + ": ", says);
+}
+
+TEST_F(BadInput, KeysGivenTwice) {
+  for (const auto& [from, to, place, says] : std::vector<Malformed>{
+           {"dx =", "dx = \"1 um\"\ndx =", "9:", "redefine existing string 'dx'"},
+           {"[run]", "[fluid]\ndensity = \"1000 kg/m3\"\n[run]", "14:1: syntax",
+            "redefine existing table 'fluid'"},
+           {"[magnetic]", "[magnetic]\n[[magnetic.source]]\n[magnetic.source]", "14:", "redefine"},
+           {"steps = 10", "steps = 10\nsteps = 10", "16:", "redefine"},
+           {"title =", "channel.axis = \"x\"\ntitle =", "3:1: syntax", "redefine"}})
+    refused(changed(from, to), std::string("case.toml:") + place, says);
+}
+
+TEST_F(BadInput, KeysNearlyRight) {
+  for (const auto& [from, to, place, says] : std::vector<Malformed>{
+           {"viscosity", "vicosity", "6:12: fluid.vicosity", "did you mean viscosity?"},
+           {"shear_rate", "shearrate", "4:13: channel.shearrate", "did you mean shear_rate?"},
+           {"size", "sise", "3:8: channel.sise", "did you mean size?"},
+           {"dx", "dX", "8:6: numerics.dX", "did you mean dx?"},
+           {"steps", "Steps", "15:9: run.Steps", "did you mean steps?"},
+           {"count", "number", "10:10: carrier.number", "is not a key"},
+           {"B0", "b0", "13:6: magnetic.b0", "did you mean B0?"},
+           {"[fluid]", "[fluids]", "5:1: fluids", "did you mean fluid?"},
+           {"[[carrier]]", "[[carriers]]", "9:1: carriers", "did you mean carrier?"},
+           {"title", "titel", "1:9: titel", "did you mean title?"},
+           {"title", "\"ti\\ntle\"", "1:12: ti?tle", "did you mean title?"},
+           {"title", "\"\"", "1:6: ", "is not a key"}})
+    refused(changed(from, to), std::string("case.toml:") + place, says);
+}
+
+TEST_F(BadInput, FilesThatAreNoCase) {
+  const auto text = [](const char* bytes, std::size_t n) { return std::string(bytes, n); };
+  refused("", "case.toml:1:1: channel.size:", "is missing");
+  refused("\n\n# nothing\n", "case.toml:1:1: channel.size:", "is missing");
+  refused("a case of blood", "case.toml:1:", "TOML");
+  refused(text("\x7f"
+               "ELF\2\1\1\0\0\0",
+               10),
+          "case.toml:1:1: syntax:", "TOML");
+  refused(text("\0\0\0\0", 4), "case.toml:1:1: syntax:", "TOML");
+  refused(good + text("\xff\xfe\x00", 3), "case.toml:16:1: syntax:", "TOML");
+  refused(text("\xff\xfe[\0f\0", 6), "case.toml:1:", "TOML");
+  refused(changed("\"case\"", "\"case"), "case.toml:1:", "TOML");
+  refused(changed("\"case\"", "\"a\\qb\""), "case.toml:1:", "TOML");
+  refused(changed("\"case\"", "\"a\\nb\""), "case.toml:1:9: title:", "one line");
+  refused(changed("\"case\"", '"' + std::string(201, 'a') + '"'),
+          "case.toml:1:9: title:", "200 characters");
+  refused(good + "a = " + std::string(400, '[') + std::string(400, ']'), "case.toml:16:", "TOML");
+  std::filesystem::remove(directory_ / "case.toml");
+  std::filesystem::create_directories(directory_ / "case.toml");
+  expect_refusal(run_file("case.toml"), "file: cannot be read", "a directory");
+}
+
+TEST_F(BadInput, NamesOfFilesThatCannotBe) {
+  const std::string longest(300, 'a');
+  for (const std::string& name : {longest, std::string("."), std::string("/dev/null"),
+                                  std::string("a/\\n/b.csv"), std::string("")})
+    refused(field_with("field = \"table\"\nfile = \"" + name + "\"\n"),
+            "case.toml:14:8: magnetic.file:", "cannot be read");
+  refused(channel_with("boundary = \"voxels\"\ngeometry = \"" + longest + "\"\n"),
+          "case.toml:5:12: channel.geometry:", "cannot be read");
+  refused(changed("[[carrier]]", "[[cell]]\nmesh = \"" + longest + "\"\n[[carrier]]"),
+          "case.toml:10:8: cell.mesh:", "cannot be read");
+  refused(
+      changed("[[carrier]]", "[[cell]]\nplacement = { file = \"" + longest + "\" }\n[[carrier]]"),
+      "case.toml:10:13: cell.placement:", "cannot be read");
+}
+
+TEST_F(BadInput, MeshesThatAreNotClosedOrNotThere) {
+  const std::string points = "1 1 1\n3 1 1\n1 3 1\n1 1 3\n";
+  const std::string faces = "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+  const auto mesh = [&](const std::string& name, const std::string& bytes,
+                        const std::string& says) {
+    std::ofstream(directory_ / name, std::ios::binary) << bytes;
+    refused(changed("[[carrier]]", "[[cell]]\ncount = 1\nmesh = \"" + name + "\"\n[[carrier]]"),
+            "case.toml:11:8: cell.mesh: " + name + ": ", says);
+  };
+  mesh("a.off", "OFF\n4 3 0\n" + points + faces.substr(8), "3 open edges");
+  mesh("a.off", "OFF\n4 4 0\n" + points + "3 0 1 2\n" + faces.substr(8),
+       "turned against each other");
+  mesh("a.off", "OFF\n4 4 0\n" + points + "3 0 2 4\n" + faces.substr(8), "names point 4");
+  mesh("a.off", "OFF\n4 4 0\n1 1 nan\n" + points.substr(6) + faces, "finite");
+  mesh("a.off", "OFF\n4 4 0\n" + points + "3 0 2\n" + faces.substr(8), "line 7");
+  mesh("a.off", "OFF\n4 4 0\n" + points + faces.substr(0, 16), "the file ends before");
+  mesh("a.off", "OFF\n2000000000 4 0\n" + points + faces, "counts 2000000000 points");
+  mesh("a.off", "OFF\n4 4 0\n1 1 1\n2 1 1\n3 1 1\n4 1 1\n" + faces, "accepted");
+  mesh("a.off", "", "the file is empty");
+  mesh("a.off",
+       std::string("\x7f"
+                   "ELF\0\1",
+                   6),
+       "where 'OFF' must be");
+  mesh("a.stl",
+       std::string("\x7f"
+                   "ELF\0\1",
+                   6),
+       "has 6 bytes");
+  mesh("a.stl", std::string(84, '\0'), "no triangles");
+  mesh("a.ply", "ply\nformat ascii 1.0\nend_header\n", "no triangles");
+  mesh("a.obj", "v 0 0 0\n", "accepted are surfaces in .stl, .off and .ply files");
+}
+
+TEST_F(BadInput, TablesWithHoles) {
+  const std::string header = "x_m,y_m,z_m,Bx_T,By_T,Bz_T\n";
+  std::vector<std::string> rows;
+  for (int k = 0; k < 64; ++k)
+    rows.push_back(std::to_string(k % 4) + "e-5," + std::to_string(k / 4 % 4) + "e-5," +
+                   std::to_string(k / 16) + "e-5,0,0,0.01\n");
+  const auto table = [&](const std::string& bytes, const std::string& says) {
+    std::ofstream(directory_ / "B.csv", std::ios::binary) << bytes;
+    refused(field_with("field = \"table\"\nfile = \"B.csv\"\n"),
+            "case.toml:14:8: magnetic.file: B.csv: ", says);
+  };
+  const auto with = [&](std::size_t row, const std::string& text) {
+    std::string all = header;
+    for (std::size_t k = 0; k < rows.size(); ++k) all += k == row ? text : rows[k];
+    return all;
+  };
+  table(with(20, ""), "63 rows");
+  table(with(63, ""), "63 rows");
+  table(with(20, rows[20] + rows[20]), "65 rows");
+  table(with(20, "9e-5,1e-5,1e-5,0,0,0.01\n"), "line 22: x is");
+  table(with(20, "0e-5,1e-5,1e-5,0,0,nan\n"), "line 22: 'nan' is not finite");
+  table(with(20, "0e-5,1e-5,1e-5,0,0,O\n"), "line 22: 'O' is not a number");
+  table(header, "the file ends before the first row");
+  table("", "the file is empty");
+  table("x,y,z,Bx,By,Bz\n" + rows[0], "the header is");
+  table(std::string("\x7f"
+                    "ELF\0\1\n",
+                    7),
+        "the header is");
+}
+
+TEST_F(BadInput, PackedStatesOfAnotherCase) {
+  const std::string cell = "[[cell]]\nvertices = 200\ncount = 1\nplacement = \"grow\"\n[[carrier]]";
+  const std::string from = "{ file = \"packed/packed.data\" }";
+  std::ofstream(directory_ / "case.toml") << changed("[[carrier]]", cell);
+  const std::string command =
+      "cd " + directory_.string() + " && " HEMOMAG_BINARY " pack case.toml --out packed >/dev/null";
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  const auto with = [&](const std::string& was, const std::string& is) {
+    std::string text = changed("[[carrier]]", cell);
+    text.replace(text.find("\"grow\""), 6, from);
+    return text.replace(text.find(was), was.size(), is);
+  };
+  const std::string at = "case.toml:12:13: cell.placement: packed/packed.data: ";
+  refused(with("title = \"case\"", "seed = 2"), at, "packed with seed 1, the case has 2");
+  refused(with("count = 1", "count = 2"), at, "the case has 2 cells");
+  refused(with("vertices = 200", "vertices = 201"), at, "201 vertices");
+  refused(with("\"8 um\", \"8 um\", \"8 um\"", "\"8 um\", \"8 um\", \"9 um\""), at, "along z");
+  const auto packed = directory_ / "packed" / "packed.data";
+  const std::string whole = content(packed);
+  const auto damaged = [&](const std::string& bytes, const std::string& says) {
+    std::ofstream(packed, std::ios::binary) << bytes;
+    refused(with("title = \"case\"", "title = \"" + says + "\""), at, says);
+  };
+  damaged(whole.substr(0, whole.size() / 2), "the file ends before");
+  damaged(whole.substr(0, 100), "the file ends before");
+  std::string counts = whole;
+  const auto types = counts.find("bond types");
+  const auto line = counts.rfind('\n', types) + 1;
+  damaged(counts.replace(line, types - line, "2147483647 "), "the file ends before 2147483647");
+  damaged("", "the file is empty");
 }
 
 TEST_F(BadInput, AnExistingDirectoryIsKept) {
