@@ -20,6 +20,7 @@ namespace {
 
 constexpr double default_profiles = 5e-3;  // s, between plates
 constexpr double most_nodes = 2e9;
+constexpr const char* whole_surface = "a whole STL, OFF or PLY file of a closed surface";
 
 std::string read_text(const std::string& path) {
   std::ifstream file(path);
@@ -224,7 +225,7 @@ void read_vessel(Case& c, const Table& channel, const std::string& case_path) {
   try {
     c.vessel = make_vessel(c);
   } catch (const Error& e) {
-    channel.fail("geometry", e.what());
+    channel.fail_reading("geometry", e.what(), whole_surface);
   }
 }
 
@@ -236,7 +237,7 @@ void read_cell_mesh(Cell& cell, const Table& t, const std::string& case_path) {
   try {
     cell.surface = read_cell_surface(cell.mesh);
   } catch (const Error& e) {
-    t.fail("mesh", e.what());
+    t.fail_reading("mesh", e.what(), whole_surface);
   }
   cell.vertices = static_cast<int>(cell.surface->points.size());
   cell.mesh_unit = t.quantity("mesh_unit");

@@ -166,7 +166,7 @@ void read_table(MagneticSource& s, const Table& t, const std::string& case_path)
   try {
     s.table = std::make_shared<const lattice::FieldTable>(io::read_field_table(s.file));
   } catch (const Error& e) {
-    t.fail("file", e.what());
+    t.fail_reading("file", e.what(), "a whole CSV file of B on a grid (docs/field_table.md)");
   }
 }
 

@@ -130,6 +130,11 @@ void Table::fail(const char* name, const std::string& problem) const {
   source_.fail(node(name), full(name), problem);
 }
 
+void Table::fail_reading(const char* name, const std::string& reason, const char* wanted) const {
+  const bool complete = reason.find("accepted") != std::string::npos;
+  fail(name, complete ? reason : reason + "; accepted: " + wanted);
+}
+
 void Table::missing(const char* name, const std::string& problem) const {
   if (table_) source_.fail(*table_, full(name), problem);
   throw CaseError(source_.path + ":1:1: " + full(name) + ": " + problem);
@@ -150,7 +155,7 @@ void Table::refuse_unknown() const {
     std::string known;
     for (const Key& key : keys())
       if (schema_ == key.table) known += (known.empty() ? "" : ", ") + std::string(key.name);
-    source_.fail(value, full(text.c_str()),
+    source_.fail(value, full(text.empty() ? "\"\"" : text.c_str()),
                  "is not a key" + (near.empty()
                                        ? "; accepted: " + known
                                        : "; did you mean " + near + "? accepted: " + known));

@@ -55,6 +55,10 @@ public:
   void refuse_if_given(const char* name, const std::string& problem) const;
 
   [[noreturn]] void fail(const char* name, const std::string& problem) const;
+  /// Report a file that could not be used; `wanted` is what is accepted, where its reader does not
+  /// say.
+  [[noreturn]] void fail_reading(const char* name, const std::string& reason,
+                                 const char* wanted) const;
   /// Report a key that is missing, at the header of its table (1:1 when there is none).
   [[noreturn]] void missing(const char* name, const std::string& problem) const;
   void require(const char* name) const;

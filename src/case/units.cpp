@@ -93,7 +93,9 @@ double quantity(std::string_view text, const Dimension& dimension) {
   const Unit from = plain_unit(unit) ? parse_unit(unit) : nullptr;
   if (!from) throw Error("\"" + std::string(unit) + "\" is not a unit; " + expected);
   const Unit to = parse_unit(dimension.unit);
-  if (!ut_are_convertible(from.get(), to.get()))
+  // UDUNITS also converts to the reciprocal: "200 s" would be a rate of 0.005 s-1.
+  const Unit ratio(ut_divide(from.get(), to.get()));
+  if (!ratio || !ut_is_dimensionless(ratio.get()))
     throw Error(given + " is not " + dimension.noun + "; " + expected);
   const std::unique_ptr<cv_converter, FreeConverter> convert(
       ut_get_converter(from.get(), to.get()));

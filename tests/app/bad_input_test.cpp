@@ -783,7 +783,7 @@ TEST_F(BadInput, ValuesOfAnotherType) {
            {"title = \"case\"", "seed = \"one\"", "1:8: seed", "a string is not"},
            {"title = \"case\"", "fluid = 3\ntitle = \"case\"", "6:1: syntax", "redefine"},
            {"[run]\nsteps = 10", "[[run]]\nsteps = 10", "14:1: run", "a [run] table is expected"},
-           {"[[carrier]]\n", "carrier.0 = 3\n[[carriers]]\n", "9:1: numerics.carrier",
+           {"[[carrier]]\n", "carrier.0 = 3\n[[carrier]]\n", "9:1: numerics.carrier",
             "is not a key"},
            {"B0 = \"0.05 T\"", "axis = [0, 1]", "13:8: magnetic.axis", "three numbers"},
            {"B0 = \"0.05 T\"", "dipoles = \"none\"", "13:11: magnetic.dipoles", "true or false"},
@@ -816,8 +816,8 @@ TEST_F(BadInput, KeysNearlyRight) {
            {"[fluid]", "[fluids]", "5:1: fluids", "did you mean fluid?"},
            {"[[carrier]]", "[[carriers]]", "9:1: carriers", "did you mean carrier?"},
            {"title", "titel", "1:9: titel", "did you mean title?"},
-           {"title", "\"ti\\ntle\"", "1:12: ti?tle", "did you mean title?"},
-           {"title", "\"\"", "1:6: ", "is not a key"}})
+           {"title", "\"ti\\ntle\"", "1:13: ti?tle", "did you mean title?"},
+           {"title", "\"\"", "1:6: \"\"", "is not a key"}})
     refused(changed(from, to), std::string("case.toml:") + place, says);
 }
 
@@ -831,7 +831,7 @@ TEST_F(BadInput, FilesThatAreNoCase) {
                10),
           "case.toml:1:1: syntax:", "TOML");
   refused(text("\0\0\0\0", 4), "case.toml:1:1: syntax:", "TOML");
-  refused(good + text("\xff\xfe\x00", 3), "case.toml:16:1: syntax:", "TOML");
+  refused(good + text("\xff\xfe\x00", 3), "case.toml:15:", "TOML");
   refused(text("\xff\xfe[\0f\0", 6), "case.toml:1:", "TOML");
   refused(changed("\"case\"", "\"case"), "case.toml:1:", "TOML");
   refused(changed("\"case\"", "\"a\\qb\""), "case.toml:1:", "TOML");
@@ -846,12 +846,13 @@ TEST_F(BadInput, FilesThatAreNoCase) {
 
 TEST_F(BadInput, NamesOfFilesThatCannotBe) {
   const std::string longest(300, 'a');
-  for (const std::string& name : {longest, std::string("."), std::string("/dev/null"),
-                                  std::string("a/\\n/b.csv"), std::string("")})
+  for (const std::string& name :
+       {longest, std::string("."), std::string("a/\\n/b.csv"), std::string("")})
     refused(field_with("field = \"table\"\nfile = \"" + name + "\"\n"),
             "case.toml:14:8: magnetic.file:", "cannot be read");
-  refused(channel_with("boundary = \"voxels\"\ngeometry = \"" + longest + "\"\n"),
-          "case.toml:5:12: channel.geometry:", "cannot be read");
+  refused(channel_with("boundary = \"voxels\"\nmean_velocity = \"1 mm/s\"\ngeometry = \"" +
+                       longest + "\"\n"),
+          "case.toml:6:12: channel.geometry:", "cannot be read");
   refused(changed("[[carrier]]", "[[cell]]\nmesh = \"" + longest + "\"\n[[carrier]]"),
           "case.toml:10:8: cell.mesh:", "cannot be read");
   refused(
@@ -896,7 +897,7 @@ TEST_F(BadInput, MeshesThatAreNotClosedOrNotThere) {
 TEST_F(BadInput, TablesWithHoles) {
   const std::string header = "x_m,y_m,z_m,Bx_T,By_T,Bz_T\n";
   std::vector<std::string> rows;
-  for (int k = 0; k < 64; ++k)
+  for (int k = 0; k < 80; ++k)
     rows.push_back(std::to_string(k % 4) + "e-5," + std::to_string(k / 4 % 4) + "e-5," +
                    std::to_string(k / 16) + "e-5,0,0,0.01\n");
   const auto table = [&](const std::string& bytes, const std::string& says) {
@@ -909,9 +910,9 @@ TEST_F(BadInput, TablesWithHoles) {
     for (std::size_t k = 0; k < rows.size(); ++k) all += k == row ? text : rows[k];
     return all;
   };
-  table(with(20, ""), "63 rows");
-  table(with(63, ""), "63 rows");
-  table(with(20, rows[20] + rows[20]), "65 rows");
+  table(with(20, ""), "79 rows");
+  table(with(79, ""), "79 rows");
+  table(with(20, rows[20] + rows[20]), "81 rows");
   table(with(20, "9e-5,1e-5,1e-5,0,0,0.01\n"), "line 22: x is");
   table(with(20, "0e-5,1e-5,1e-5,0,0,nan\n"), "line 22: 'nan' is not finite");
   table(with(20, "0e-5,1e-5,1e-5,0,0,O\n"), "line 22: 'O' is not a number");
@@ -947,8 +948,8 @@ TEST_F(BadInput, PackedStatesOfAnotherCase) {
     std::ofstream(packed, std::ios::binary) << bytes;
     refused(with("title = \"case\"", "title = \"" + says + "\""), at, says);
   };
-  damaged(whole.substr(0, whole.size() / 2), "the file ends before");
-  damaged(whole.substr(0, 100), "the file ends before");
+  damaged(whole.substr(0, whole.find("\nBonds")), "the file ends before");
+  damaged(whole.substr(0, whole.find(" bonds")), "the file ends before");
   std::string counts = whole;
   const auto types = counts.find("bond types");
   const auto line = counts.rfind('\n', types) + 1;

@@ -44,6 +44,11 @@ TEST(Units, RefuseWhatIsNoQuantity) {
         "inf um", "27 um 3", "--2 um", "27 um;", "0x10 um", "1e400 um"})
     EXPECT_THROW(quantity(text, dimension::length), hemomag::Error) << text;
   EXPECT_THROW(quantity("200 rpm", dimension::rate), hemomag::Error);
+  // Reciprocals, which UDUNITS would convert.
+  EXPECT_THROW(quantity("200 s", dimension::rate), hemomag::Error);
+  EXPECT_THROW(quantity("5 ms", dimension::frequency), hemomag::Error);
+  EXPECT_THROW(quantity("3 um", dimension::per_length), hemomag::Error);
+  EXPECT_THROW(quantity("200 s-1", dimension::time), hemomag::Error);
 }
 
 /// Rows of the reference page, one a key.
