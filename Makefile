@@ -2,6 +2,7 @@
 # make check   install what is missing, build, run every quick test
 # make build   only build
 # make validate  compare with theory
+# make sanitize  build with address and undefined-behaviour sanitizers into build-sanitize, run every quick test
 BUILD ?= build
 TYPE  ?= Release
 RANKS ?= 2
@@ -12,11 +13,11 @@ export OMPI_ALLOW_RUN_AS_ROOT = 1
 export OMPI_ALLOW_RUN_AS_ROOT_CONFIRM = 1
 endif
 demo: MPI_OPTIONS = $(shell [ "$$(nproc)" -ge $(RANKS) ] || echo --oversubscribe)
-check: export OMPI_MCA_rmaps_base_oversubscribe = 1
-check: export OMPI_MCA_hwloc_base_binding_policy = none
-check: export OMPI_MCA_mpi_yield_when_idle = 1
+check sanitize: export OMPI_MCA_rmaps_base_oversubscribe = 1
+check sanitize: export OMPI_MCA_hwloc_base_binding_policy = none
+check sanitize: export OMPI_MCA_mpi_yield_when_idle = 1
 
-.PHONY: all bootstrap build demo check validate clean
+.PHONY: all bootstrap build demo check validate sanitize clean
 all: build
 
 bootstrap:
@@ -35,6 +36,11 @@ check: build
 
 validate: build
 	$(BUILD)/bin/hemomag validate
+
+sanitize: bootstrap
+	cmake --preset dev
+	cmake --build --preset dev
+	ctest --preset dev -L quick --no-tests=error -j $$(nproc)
 
 clean:
 	rm -rf $(BUILD)
