@@ -1,7 +1,7 @@
 # Every room of src/ is one target hemo_<room>. A room without sources is an interface target.
 add_library(hemo_flags INTERFACE)
 target_compile_options(hemo_flags INTERFACE
-  -Wall -Wextra -Werror=return-type
+  -Wall -Wextra -Wconversion -Wnon-virtual-dtor -Werror=return-type
   $<$<CONFIG:Release>:-O3 -fno-math-errno -fno-trapping-math>)
 if(HEMOMAG_SANITIZE)
   # -O1 keeps the suite within an hour; a finding ends the program, so that no test can pass with one.
