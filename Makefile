@@ -2,6 +2,7 @@
 # make check   install what is missing, build, run every quick test
 # make build   only build
 # make validate  compare with theory
+# make tidy    clang-tidy over src/ (Debian: clang-tidy-14), nothing to be said is the pass
 # make sanitize  build with address and undefined-behaviour sanitizers into build-sanitize, run every quick test
 BUILD ?= build
 TYPE  ?= Release
@@ -17,7 +18,7 @@ check sanitize: export OMPI_MCA_rmaps_base_oversubscribe = 1
 check sanitize: export OMPI_MCA_hwloc_base_binding_policy = none
 check sanitize: export OMPI_MCA_mpi_yield_when_idle = 1
 
-.PHONY: all bootstrap build demo check validate sanitize clean
+.PHONY: all bootstrap build demo check validate sanitize tidy clean
 all: build
 
 bootstrap:
@@ -41,6 +42,10 @@ sanitize: bootstrap
 	cmake --preset dev
 	cmake --build --preset dev
 	ctest --preset dev -L quick --no-tests=error -j $$(nproc)
+
+tidy: bootstrap
+	cmake -S . -B $(BUILD) -G Ninja -DCMAKE_BUILD_TYPE=$(TYPE)
+	run-clang-tidy-14 -p $(BUILD) -quiet -j $$(nproc) '$(CURDIR)/src/'
 
 clean:
 	rm -rf $(BUILD)
