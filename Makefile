@@ -3,6 +3,8 @@
 # make build   only build
 # make ranks   run the parallel tests on the rank counts of 1, 2, 4 and 8 that make check leaves out
 # make validate  compare with theory
+# make tidy    clang-tidy over src/ (Debian: clang-tidy-14), nothing to be said is the pass
+# make sanitize  build with address and undefined-behaviour sanitizers into build-sanitize, run every quick test
 BUILD ?= build
 TYPE  ?= Release
 RANKS ?= 2
@@ -13,11 +15,11 @@ export OMPI_ALLOW_RUN_AS_ROOT = 1
 export OMPI_ALLOW_RUN_AS_ROOT_CONFIRM = 1
 endif
 demo: MPI_OPTIONS = $(shell [ "$$(nproc)" -ge $(RANKS) ] || echo --oversubscribe)
-check ranks: export OMPI_MCA_rmaps_base_oversubscribe = 1
-check ranks: export OMPI_MCA_hwloc_base_binding_policy = none
-check ranks: export OMPI_MCA_mpi_yield_when_idle = 1
+check ranks sanitize: export OMPI_MCA_rmaps_base_oversubscribe = 1
+check ranks sanitize: export OMPI_MCA_hwloc_base_binding_policy = none
+check ranks sanitize: export OMPI_MCA_mpi_yield_when_idle = 1
 
-.PHONY: all bootstrap build demo check ranks validate clean
+.PHONY: all bootstrap build demo check ranks validate sanitize tidy clean
 all: build
 
 bootstrap:
@@ -39,6 +41,15 @@ ranks: build
 
 validate: build
 	$(BUILD)/bin/hemomag validate
+
+sanitize: bootstrap
+	cmake --preset dev
+	cmake --build --preset dev
+	ctest --preset dev -L quick --no-tests=error -j $$(nproc)
+
+tidy: bootstrap
+	cmake -S . -B $(BUILD) -G Ninja -DCMAKE_BUILD_TYPE=$(TYPE)
+	run-clang-tidy-14 -p $(BUILD) -quiet -j $$(nproc) '$(CURDIR)/src/'
 
 clean:
 	rm -rf $(BUILD)

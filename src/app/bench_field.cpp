@@ -14,10 +14,11 @@ using magnetic::Frame;
 lattice::FieldTable table_of(const magnetic::BlockMagnet& magnet) {
   constexpr std::size_t n = 40;
   lattice::FieldTable table{{n, n, n}, {0, 0, 0}, {1, 1, 1}, {}};
-  for (std::size_t k = 0; k < n * n * n; ++k)
-    table.B.push_back(magnet({static_cast<double>(k % n), static_cast<double>(k / n % n),
-                              static_cast<double>(k / n / n)})
-                          .B);
+  for (std::size_t k = 0; k < n * n * n; ++k) {
+    const std::size_t x = k % n, y = k / n % n, z = k / n / n;
+    table.B.push_back(
+        magnet({static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)}).B);
+  }
   return table;
 }
 

@@ -23,11 +23,15 @@ int side_of(const ChainRun::Options& o) {
 }
 
 /// The middle of the box, off the nodes.
-Vec3 middle(int side) { return {side / 2 + 0.23, side / 2 + 0.41, side / 2 + 0.12}; }
+Vec3 middle(int side) {
+  const int node = side / 2;
+  return {node + 0.23, node + 0.41, node + 0.12};
+}
 
 /// In line with the field, touching, hardly disturbed.
 std::vector<Vec3> straight(const ChainRun::Options& o) {
   std::vector<Vec3> x;
+  x.reserve(static_cast<std::size_t>(o.carriers));
   for (int k = 0; k < o.carriers; ++k)
     x.push_back(middle(side_of(o)) +
                 Vec3{2 * a * (k - 0.5 * (o.carriers - 1)), 1e-4 * std::sin(7.1 * k), 0});

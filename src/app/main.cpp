@@ -1,4 +1,5 @@
 #include <cstdio>
+#include <exception>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -142,9 +143,16 @@ extern "C" int MPI_Abort(MPI_Comm comm, int) { return PMPI_Abort(comm, case_::co
 
 int main(int argc, char** argv) {
   MPI_Init(&argc, &argv);
-  // LAMMPS has options of its own: they go through untouched.
-  const int code = argc > 1 && std::string(argv[1]) == "lmp" ? lmp({argv + 2, argv + argc})
-                                                             : parse_and_run(argc, argv);
+  int code = 0;
+  try {
+    // LAMMPS has options of its own: they go through untouched.
+    code = argc > 1 && std::string(argv[1]) == "lmp" ? lmp({argv + 2, argv + argc})
+                                                     : parse_and_run(argc, argv);
+  } catch (const std::exception& e) {
+    // What no subcommand foresaw, no memory left for one. Others may wait for this rank: all end.
+    std::fprintf(stderr, "hemomag: %s\n", e.what());
+    PMPI_Abort(MPI_COMM_WORLD, 4);
+  }
   MPI_Finalize();
   return code;
 }

@@ -104,7 +104,8 @@ io::FlowPicture picture(ChainRun& chain, const std::string& label) {
   constexpr int every = 2;
   for (int j = cut + 1; j < side - cut; j += every)
     for (int i = cut + 1; i < side - cut; i += every) {
-      const Vec3& here = u[static_cast<std::size_t>(j * side + i)];
+      const int node = j * side + i;
+      const Vec3& here = u[static_cast<std::size_t>(node)];
       p.flow.push_back({i - cut + 0.5, j - cut + 0.5, here.x, here.y});
     }
   p.fastest = 0.7 * chain.tip_speed();

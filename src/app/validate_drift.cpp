@@ -86,8 +86,8 @@ struct Drift {
 };
 
 std::vector<double> in_nodes(double dx_nm) {
-  std::vector<double> a;
-  for (const double nm : radii_nm) a.push_back(nm / dx_nm);
+  std::vector<double> a(radii_nm.begin(), radii_nm.end());
+  for (double& radius : a) radius /= dx_nm;
   return a;
 }
 
@@ -118,11 +118,11 @@ const std::array<Vec3, 6> offsets{{{0, 0, 0},
                                    {0.1, 0.35, 0.7}}};
 
 Drift in_periodic_box(double dx_nm) {
-  constexpr int L = 24;
+  constexpr int L = 24, middle = L / 2;
   CarrierRun::Setup s;
   s.nodes = {L, L, L};
   s.radii = in_nodes(dx_nm);
-  const Vec3 node{L / 2 + 0.5, L / 2 + 0.5, L / 2 + 0.5};
+  const Vec3 node{middle + 0.5, middle + 0.5, middle + 0.5};
   s.x = {node};
   s.fluid = format("tau 1.0 force %.17g 0 0", -pull / (1.0 * L * L * L));
   Pulled carrier(s, 0, 1.0 / 6);
@@ -142,7 +142,7 @@ Drift in_slit(double dx_nm) {
   };
   constexpr std::array<Height, 3> heights{{{12, 0.2439}, {9, 0.2449}, {6, 0.2576}}};
   const double dx = dx_nm / 1000;
-  const int side = static_cast<int>(std::lround(12 / dx)), gap = 2 * side;
+  const int side = static_cast<int>(std::lround(12 / dx)), gap = 2 * side, middle = side / 2;
   CarrierRun::Setup s;
   s.nodes = {side, side, gap};
   s.walls = CarrierRun::Setup::Walls::plates;
@@ -157,7 +157,7 @@ Drift in_slit(double dx_nm) {
       // Along the plates every place is as good as another; across, half a node hardly matters.
       const Vec3 o = offsets[place++];
       const double across = at.z_um == 12 ? o.z : 0;
-      carrier.settle({side / 2 + 0.5 + o.x, side / 2 + 0.5 + o.y, at.z_um / dx + across}, 250);
+      carrier.settle({middle + 0.5 + o.x, middle + 0.5 + o.y, at.z_um / dx + across}, 250);
       measure(d, carrier, [&](double a) { return 1 - at.c_per_um * a * dx; });
     }
   return d;
@@ -233,7 +233,7 @@ void draw_drift(const std::vector<Drift>& all, const std::string& out) {
 /// Mean mobility over the cell of every kernel in every scheme, by Gauss-Lobatto quadrature with
 /// three points an axis on [0, 1/2]^3 (the rest is a mirror image; y and z may be exchanged).
 void kernels_and_schemes(std::vector<Finding>& found) {
-  constexpr int L = 16;
+  constexpr int L = 16, middle = L / 2;
   struct Scheme {
     const char* name;
     const char* options;
@@ -254,7 +254,7 @@ void kernels_and_schemes(std::vector<Finding>& found) {
       CarrierRun::Setup s;
       s.nodes = {L, L, L};
       s.radii = {R / 2};
-      const Vec3 node{L / 2 + 0.5, L / 2 + 0.5, L / 2 + 0.5};
+      const Vec3 node{middle + 0.5, middle + 0.5, middle + 0.5};
       s.x = {node};
       s.fluid =
           format("%s kernel %s force %.17g 0 0", scheme.options, name, -pull / (1.0 * L * L * L));

@@ -246,9 +246,11 @@ double taylor_green_viscosity(const Relaxation& relaxation, int L) {
     double a = 0;
     const auto u = velocity(fluid);
     for (int y = 0; y < L; ++y)
-      for (int x = 0; x < L; ++x)
-        a += u[static_cast<std::size_t>(y * L + x)].x * std::sin(k * (x + 0.5)) *
-             std::cos(k * (y + 0.5));
+      for (int x = 0; x < L; ++x) {
+        const int node = y * L + x;
+        a +=
+            u[static_cast<std::size_t>(node)].x * std::sin(k * (x + 0.5)) * std::cos(k * (y + 0.5));
+      }
     return a;
   };
   const int t = static_cast<int>(0.5 / (fluid.viscosity() * k * k));

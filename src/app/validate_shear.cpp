@@ -170,6 +170,7 @@ void draw_frequencies(const std::string& out, const std::vector<Point>& tumbling
                       double high) {
   using enum io::Series::Style;
   std::vector<Point> fischer;
+  fischer.reserve(fischer_2015.size());
   for (const auto& p : fischer_2015)
     fischer.push_back(
         {fischer_2015_viscosity * p.shear_rate * radius / mu0, p.frequency_over_shear});

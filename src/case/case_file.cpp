@@ -199,7 +199,7 @@ void read_numerics(Case& c, const Table& t) {
 /// The path of a file that a key names relative to the case file.
 /// @throws CaseError at the key when it cannot be read
 std::string surface_path(const Table& t, const char* key, const std::string& case_path) {
-  const auto path = (std::filesystem::path(case_path).parent_path() / t.word(key)).string();
+  std::string path = (std::filesystem::path(case_path).parent_path() / t.word(key)).string();
   if (!io::is_readable(path))
     t.fail(key, path + ": cannot be read; a readable STL, OFF or PLY file is expected");
   return path;

@@ -186,6 +186,7 @@ Cells scatter(const Case& c, const std::vector<CellModel>& meshes, const std::ve
     return scatter_cells(wide, meshes, counts);
   }
   std::vector<CellModel> small;
+  small.reserve(meshes.size());
   for (const CellModel& m : meshes) small.push_back(half_size(m));
   return scatter_cells(c, small, counts);
 }

@@ -295,6 +295,7 @@ void place_carriers(System& system, const Packing& packing, const Case& c, std::
     }
     const Vec3 step = worm ? 2 * carrier.radius * random.direction() : Vec3{};
     std::vector<Vec3> chain;
+    chain.reserve(static_cast<std::size_t>(beads));
     for (int b = 0; b < beads; ++b) chain.push_back(x + static_cast<double>(b) * step);
     const bool fits = std::all_of(chain.begin(), chain.end(), [&](const Vec3& p) {
       return packing.carrier_fits(p) && !(c.magnetic.dipoles && others.any_near(p));

@@ -51,7 +51,7 @@ std::string Table::word(const char* name) const {
   if (!has(name)) return key.fallback;
   const auto text = node(name).value<std::string>();
   if (!text) wrong_type(name, key);
-  const std::string word = *text;
+  std::string word = *text;
   if (key.kind == Kind::text) return word;
   for (const char* choice : key.choices)
     if (word == choice) return word;

@@ -35,7 +35,7 @@ template <Pass pass, class Real>
 [[gnu::always_inline]] inline void prefetch_ahead(const SweepFields<Real>& s,
                                                   const std::ptrdiff_t (&towards)[19],
                                                   std::ptrdiff_t at, std::ptrdiff_t node) {
-  constexpr std::ptrdiff_t ahead = 12 * 64 / static_cast<std::ptrdiff_t>(sizeof(Real));
+  constexpr std::ptrdiff_t line = 64 / static_cast<std::ptrdiff_t>(sizeof(Real)), ahead = 12 * line;
   constexpr int read = 0, second_level = 2;
   const std::ptrdiff_t newest = s.f_row + s.f_plane;  // the row of `last` not touched before
 #pragma GCC unroll 10

@@ -91,7 +91,7 @@ Vec3 add_reflected_source(const Plate& plate, Pass next, const Populations<Real>
       const Real row_sum =
           i < 7 ? reflect_row(Combination<Real, 3>(last, j), w_j, K, push, row, n, target)
                 : reflect_row(Combination<Real, 6>(last, j), w_j, K, push, row, n, target);
-      sum += rates.K * (2.0 * row_sum + n * push) + n * at_rest(i, rates);
+      sum += rates.K * (2.0 * row_sum + static_cast<Real>(n) * push) + n * at_rest(i, rates);
     });
     given -= sum * direction(i);
   }

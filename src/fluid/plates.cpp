@@ -39,7 +39,7 @@ Vec3 bounce(const Plate& plate, const Populations<Real>& f, const lattice::NodeL
         returning[x] = out + push;
         given_by_row += out;
       }
-      sum += 2.0 * (given_by_row + n * streamed * w[j]) + n * push;
+      sum += 2.0 * (given_by_row + n * streamed * w[j]) + static_cast<Real>(n) * push;
     });
     given += sum * direction(j);
   }

@@ -189,7 +189,8 @@ void AngleHemoMembrane::compute(int eflag, int vflag) {
   ev_init(eflag, vflag);
   if (topology_.changed(*neighbor)) rebuild();
   sum_cells();
-  const auto atoms = static_cast<std::size_t>(atom->nlocal + atom->nghost);
+  const int all = atom->nlocal + atom->nghost;
+  const auto atoms = static_cast<std::size_t>(all);
   for (std::size_t c = 0; c < cells_.size(); ++c)
     list_.add_forces(c, pull(c), {reinterpret_cast<const Vec3*>(atom->x[0]), atoms},
                      {reinterpret_cast<Vec3*>(atom->f[0]), atoms});

@@ -77,7 +77,8 @@ void BondHemoWLC::rebuild() {
 void BondHemoWLC::compute(int eflag, int vflag) {
   ev_init(eflag, vflag);
   if (topology_.changed(*neighbor)) rebuild();
-  const auto atoms = static_cast<std::size_t>(atom->nlocal + atom->nghost);
+  const int all = atom->nlocal + atom->nghost;
+  const auto atoms = static_cast<std::size_t>(all);
   const std::span<const Vec3> x{reinterpret_cast<const Vec3*>(atom->x[0]), atoms};
   const auto broken = edges_.add_forces(x, {reinterpret_cast<Vec3*>(atom->f[0]), atoms});
   if (broken >= 0) {

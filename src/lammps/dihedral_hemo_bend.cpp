@@ -65,7 +65,8 @@ void DihedralHemoBend::rebuild() {
 void DihedralHemoBend::compute(int eflag, int vflag) {
   ev_init(eflag, vflag);
   if (topology_.changed(*neighbor)) rebuild();
-  const auto atoms = static_cast<std::size_t>(atom->nlocal + atom->nghost);
+  const int all = atom->nlocal + atom->nghost;
+  const auto atoms = static_cast<std::size_t>(all);
   hinges_.add_forces({reinterpret_cast<const Vec3*>(atom->x[0]), atoms},
                      {reinterpret_cast<Vec3*>(atom->f[0]), atoms});
   if (evflag) tally(eflag);

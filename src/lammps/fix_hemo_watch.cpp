@@ -339,6 +339,7 @@ void FixHemoWatch::count_inside() {
   MPI_Allgatherv(mine.data(), n, MPI_DOUBLE, all.data(), counts.data(), starts.data(), MPI_DOUBLE,
                  world);
   std::vector<Vec3> carriers;
+  carriers.reserve(all.size());
   for (const Place& carrier : all) carriers.push_back(carrier.x);
 
   const auto surface = membrane_->surface();

@@ -35,7 +35,7 @@ void PairHemoContact::allocate() {
   memory->create(cutsq, types_ + 1, types_ + 1, "pair:cutsq");
   for (int i = 0; i <= types_; ++i)
     for (int j = 0; j <= types_; ++j) setflag[i][j] = 0, cutsq[i][j] = 0;
-  contact_.resize(static_cast<std::size_t>((types_ + 1) * (types_ + 1)));
+  contact_.resize(place(types_ + 1, 0));
 }
 
 void PairHemoContact::settings(int narg, char**) {
@@ -118,7 +118,7 @@ void PairHemoContact::compute(int eflag, int vflag) {
   for (int a = 0; a < list->inum; ++a) {
     const int i = list->ilist[a];
     const Vec3 xi = x[i];
-    const Contact* row = &contact_[static_cast<std::size_t>(type[i] * (types_ + 1))];
+    const Contact* row = &contact_[place(type[i], 0)];
     const int* neighbours = list->firstneigh[i];
     Vec3 fi;
     for (int b = 0; b < list->numneigh[i]; ++b) {

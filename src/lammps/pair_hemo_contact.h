@@ -36,10 +36,13 @@ private:
     hemomag::contact::LennardJones lj;
     double morse_cut2 = 0, lj_cut2 = 0;
   };
+  static_assert(sizeof(Contact) == 8 * sizeof(double), "it is written to restart files as it is");
   void allocate();
-  Contact& between(int i, int j) {
-    return contact_[static_cast<std::size_t>(i * (types_ + 1) + j)];
+  std::size_t place(int i, int j) const {
+    const int entry = i * (types_ + 1) + j;
+    return static_cast<std::size_t>(entry);
   }
+  Contact& between(int i, int j) { return contact_[place(i, j)]; }
   void set(int i, int j, const Contact& contact);
   /// -dU/dr over r at the squared distance r2.
   static double force_over_r(const Contact& c, double r2);

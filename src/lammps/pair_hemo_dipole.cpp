@@ -41,7 +41,7 @@ void PairHemoDipole::allocate() {
   memory->create(cutsq, types_ + 1, types_ + 1, "pair:cutsq");
   for (int i = 0; i <= types_; ++i)
     for (int j = 0; j <= types_; ++j) setflag[i][j] = 0, cutsq[i][j] = 0;
-  pairing_.resize(static_cast<std::size_t>((types_ + 1) * (types_ + 1)));
+  pairing_.resize(place(types_ + 1, 0));
 }
 
 void PairHemoDipole::settings(int narg, char** arg) {

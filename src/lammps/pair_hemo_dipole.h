@@ -7,6 +7,7 @@ PairStyle(hemo/dipole,PairHemoDipole)
 #ifndef LMP_PAIR_HEMO_DIPOLE_H
 #define LMP_PAIR_HEMO_DIPOLE_H
 
+#include <cstdint>
 #include <vector>
 
 #include "pair.h"
@@ -42,21 +43,22 @@ public:
   double max_stiffness();
 
 private:
-  enum class Repulsion : int { soft, paper };
-  struct Pairing {
+  enum class Repulsion : std::int64_t { soft, paper };
+  struct Pairing {  // written to restart files as it is
     double contact_distance = 0;
     Repulsion repulsion = Repulsion::soft;
     double kappa = 30;              // soft
     double epsilon = 0, sigma = 0;  // paper
     double reach2 = 0;              // square of the distance from which on there is no repulsion
   };
+  static_assert(sizeof(Pairing) == 6 * sizeof(double), "padding would be bytes that nobody set");
   void allocate();
-  Pairing& between(int i, int j) {
-    return pairing_[static_cast<std::size_t>(i * (types_ + 1) + j)];
+  std::size_t place(int i, int j) const {
+    const int entry = i * (types_ + 1) + j;
+    return static_cast<std::size_t>(entry);
   }
-  const Pairing& between(int i, int j) const {
-    return pairing_[static_cast<std::size_t>(i * (types_ + 1) + j)];
-  }
+  Pairing& between(int i, int j) { return pairing_[place(i, j)]; }
+  const Pairing& between(int i, int j) const { return pairing_[place(i, j)]; }
   hemomag::magnetic::PairForce repulsion_between(int i, int j, const hemomag::Vec3& r) const;
   double longest_reach2() const;
   template <class Visit> void for_each_pair(double** x, Visit visit) const;

@@ -21,7 +21,8 @@ std::optional<Gap> gap(const Shape& shape, const Vec3& low, const Vec3& high) {
         if constexpr (requires { source.nearest(low); }) {
           Gap least{std::numeric_limits<double>::infinity(), {}};
           for (int start = 0; start < 27; ++start) {
-            const Vec3 share{0.5 * (start % 3), 0.5 * (start / 3 % 3), 0.5 * (start / 9)};
+            const int i = start % 3, j = start / 3 % 3, layer = start / 9;
+            const Vec3 share{0.5 * i, 0.5 * j, 0.5 * layer};
             Vec3 p = low;
             for (std::size_t a = 0; a < 3; ++a) p[a] += share[a] * (high[a] - low[a]);
             for (int k = 0; k < projections; ++k) p = into(source.nearest(p), low, high);

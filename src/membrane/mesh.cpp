@@ -47,6 +47,7 @@ std::vector<Vec3> scattered_on_sphere(int count, std::mt19937_64& random) {
 std::vector<Vec3> map_to_cell(const std::vector<Vec3>& sphere, const RestShape& shape) {
   const CosineOfAreaFraction cosine(shape);
   std::vector<Vec3> cell;
+  cell.reserve(sphere.size());
   for (const Vec3& p : sphere)
     cell.push_back(rest_point(shape, std::acos(cosine(0.5 * (1 - p.z))), std::atan2(p.y, p.x)));
   return cell;

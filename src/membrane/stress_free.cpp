@@ -22,6 +22,7 @@ std::vector<double> stress_free_lengths(const TriangleMesh& mesh, const std::vec
   }
   const double scale = std::sqrt(surface_area(mesh) / surface_area(carried));
   std::vector<double> rest;
+  rest.reserve(edges.size());
   for (const Edge& e : edges) rest.push_back(scale * length(carried, e));
   return rest;
 }
