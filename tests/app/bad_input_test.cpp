@@ -408,6 +408,9 @@ TEST_F(BadInput, SurfacesOfCells) {
   refused(with(file + "\nmesh_unit = \"1 s\""), "case.toml:12:13: cell.mesh_unit:", "length");
   refused(with(file + "\nstress_free = \"sphere\""),
           "case.toml:12:15: cell.stress_free:", "without a mesh");
+  refused(changed("[[carrier]]", "[[cell]]\nhematocrit = 0.3\nmesh = \"cell.off\"\nmesh_unit = "
+                                 "\"1 nm\"\n[[carrier]]"),
+          "case.toml:10:14: cell.hematocrit:", "accepted: at most 1e+07");
   // A unit that was mistaken: too large for the box, and for the nodes.
   const std::string mistaken = with(file + "\nmesh_unit = \"1 mm\"");
   const Outcome outcome = run(mistaken);
