@@ -127,6 +127,7 @@ void Table::refuse_if_given(const char* name, const std::string& problem) const 
 }
 
 void Table::fail(const char* name, const std::string& problem) const {
+  if (!has(name)) missing(name, problem);  // it is the default that does not go with the rest
   source_.fail(node(name), full(name), problem);
 }
 

@@ -254,6 +254,14 @@ TEST_F(BadInput, LayersAndProfilesThatCannotBeMeasured) {
           "case.toml:18:12: output.profiles:", "needs boundary = \"plates\"");
 }
 
+// The key at fault is not in the file: its table is pointed at.
+TEST_F(BadInput, DefaultsThatDoNotGoWithTheRest) {
+  refused(changed("count = 3", "feedback = false\n[[carrier]]"),
+          "case.toml:11:1: carrier.1.feedback:", "differs from another");
+  refused(channel_with("boundary = \"tube\"\ndiameter = \"5 um\"\nmean_velocity = \"1 mm/s\"\n"),
+          "case.toml:1:1: analysis.layer:", "half its width");
+}
+
 TEST_F(BadInput, Tubes) {
   const auto with = [](const std::string& lines) { return channel_with(tube + lines); };
   refused(channel_with("boundary = \"tube\"\n"), "case.toml:2:1: channel.diameter:", "is missing");
