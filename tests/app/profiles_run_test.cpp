@@ -126,4 +126,10 @@ TEST_F(ProfilesRun, SaysWhatIsMissing) {
   EXPECT_NE(said_.find("nowhere/fields/fluid.vtkhdf.series: is missing"), std::string::npos);
 }
 
+TEST_F(ProfilesRun, EndsWithALineOnWhatNobodyForesaw) {
+  EXPECT_EQ(hemomag("profiles " + std::string(5000, 'x')), 4);
+  EXPECT_NE(said_.find("hemomag: filesystem error"), std::string::npos) << said_;
+  EXPECT_EQ(said_.find("terminate called"), std::string::npos) << said_;
+}
+
 }  // namespace
