@@ -6,7 +6,6 @@
 #include "case/lattice_units.hpp"
 #include "case/script.hpp"
 #include "lammps/host.hpp"
-#include "lattice/block.hpp"
 #include "solver/fluid_solver.hpp"
 
 namespace hemomag::case_ {
