@@ -5,7 +5,7 @@ target_compile_options(hemo_flags INTERFACE
   $<$<CXX_COMPILER_ID:Clang>:-Wno-sign-conversion>  # what g++ does not count as -Wconversion
   $<$<CONFIG:Release>:-O3 -fno-math-errno -fno-trapping-math>)
 if(HEMOMAG_SANITIZE)
-  # -O1: without it the suite takes several times as long. A finding ends the program, so that no test can pass with one.
+  # A finding ends the program, so that no test can pass with one.
   target_compile_options(hemo_flags INTERFACE
     -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer -O1)
   target_compile_definitions(hemo_flags INTERFACE _GLIBCXX_ASSERTIONS)
