@@ -2,8 +2,8 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <string>
 
 #include <unistd.h>
@@ -22,23 +22,31 @@ int code() {
   return lammps::ending().cause == lammps::Cause::file_trouble ? file_trouble : unstable;
 }
 
-/// What was said when the run ended, or the last error line of its log. Rank 0 only: it alone has a
-/// log. Half a checkpoint must not keep a full disk full.
+/// The last error line of a log.
+std::string last_error(std::FILE* log) {
+  std::string reason;
+  if (!log) return reason;
+  std::rewind(log);
+  for (char line[1000]; std::fgets(line, sizeof line, log);)
+    if (std::strncmp(line, "ERROR", 5) == 0) reason = line;
+  while (!reason.empty() && reason.back() == '\n') reason.pop_back();
+  return reason;
+}
+
+/// What was said when the run ended, or the last error line of its log. Half a checkpoint must not
+/// keep a full disk full.
 void print_reason() {
   if (code() == file_trouble) {
     std::error_code ignored;
     std::filesystem::remove_all(io::unfinished(checkpoint_name), ignored);
   }
   if (!lammps::ending().reason.empty()) {
-    std::fprintf(stderr, "hemomag: %s%s\n",
-                 code() == unstable ? "the run broke off: ERROR: " : "",
+    std::fprintf(stderr, "hemomag: %s%s\n", code() == unstable ? "the run broke off: ERROR: " : "",
                  lammps::ending().reason.c_str());
     return;
   }
-  std::ifstream log("log.lammps");
-  std::string reason;
-  for (std::string line; std::getline(log, line);)
-    if (line.rfind("ERROR", 0) == 0) reason = line;
+  std::FILE* log = this_rank == 0 ? std::fopen("log.lammps", "r") : lammps::kept_log();
+  const std::string reason = last_error(log);
   std::fprintf(stderr, "hemomag: the run broke off: %s\n",
                reason.empty() ? "see the end of its log.lammps" : reason.c_str());
 }
@@ -63,9 +71,9 @@ RunInProgress::RunInProgress(int rank) {
 RunInProgress::~RunInProgress() { in_progress = false; }
 
 int code_of_abort() {
+  if (in_progress || !lammps::ending().reason.empty()) print_reason();
   if (!in_progress) return 1;
   in_progress = false;
-  if (this_rank == 0 || !lammps::ending().reason.empty()) print_reason();
   return code();
 }
 

@@ -21,7 +21,7 @@ public:
 inline constexpr const char* checkpoint_name = "checkpoint";
 
 /// Exit code for an MPI_Abort at this moment: while a run is in progress 3, or 4 for a file or the
-/// disk, with the reason printed, else 1.
+/// disk, else 1. Prints the reason.
 int code_of_abort();
 
 }  // namespace hemomag::case_

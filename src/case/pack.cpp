@@ -2,13 +2,13 @@
 
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 
 #include <nlohmann/json.hpp>
 
 #include "base/error.hpp"
 #include "case/card.hpp"
 #include "case/packed_file.hpp"
+#include "case/run_directory.hpp"
 #include "case/run_lock.hpp"
 #include "io/files.hpp"
 
@@ -22,15 +22,18 @@ int refuse(const std::string& message) {
   return bad_input;
 }
 
+int trouble(const std::exception& e) {
+  std::fprintf(stderr, "hemomag: %s\n", e.what());
+  return file_trouble;
+}
+
 int make(const Case& c, const RunOptions& options) {
   if (!is_packed(c) || c.cells[0].placement == Placement::file)
     return refuse(position(c, "cell.placement") +
                   ": nothing is packed; accepted: \"compress\" or \"grow\"");
-  if (std::filesystem::exists(options.out) && !options.force)
-    return refuse("hemomag: --out " + options.out +
-                  ": exists already; accepted: another directory, or --force to replace it");
   System system;
   try {
+    require_free(c, options);
     system.models = cell_models(c);
     const Card card = make_card(c, system.models);
     if (card.refused()) {
@@ -40,20 +43,17 @@ int make(const Case& c, const RunOptions& options) {
     PackedCells packed = pack_cells(c, system.models);
     system.cells = std::move(packed.cells);
     system.packing = packed.report;
-    // Refused where a run is at work.
-    if (std::filesystem::exists(options.out)) RunLock{options.out};
+    io::make_directory(options.out);
+    const RunLock lock(options.out);
+    write_directory(options, {{"case.toml", c.text},
+                              {packed_copy, packed_data(c, system)},
+                              {packing_report, packing_json(*system.packing)}});
+  } catch (const FileError& e) {
+    return trouble(e);
   } catch (const Error& e) {
     return refuse(e.what());
-  }
-  try {
-    std::filesystem::remove_all(options.out);
-    io::make_directory(options.out);
-    io::replace_file(options.out + "/case.toml", c.text);
-    io::replace_file(options.out + "/" + packed_copy, packed_data(c, system));
-    io::replace_file(options.out + "/pack.json", packing_json(*system.packing));
   } catch (const std::exception& e) {
-    std::fprintf(stderr, "hemomag: %s\n", e.what());
-    return file_trouble;
+    return trouble(e);
   }
   std::printf("%s\n%soutput in %s\n", c.title.c_str(), packing_text(*system.packing).c_str(),
               options.out.c_str());

@@ -9,6 +9,9 @@
 
 namespace hemomag::case_ {
 
+/// Where a packing reports on itself.
+inline constexpr const char* packing_report = "pack.json";
+
 /// `hemomag pack`: make the cells of a case and keep them in a directory, as packed.data, with
 /// pack.json and the case. Rank 0 works alone; every rank returns the same exit code
 /// (docs/command_line.md).

@@ -1,6 +1,7 @@
 #include "case/run.hpp"
 
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -22,6 +23,7 @@
 #include "case/pack.hpp"
 #include "case/packed_file.hpp"
 #include "case/profile_summary.hpp"
+#include "case/run_directory.hpp"
 #include "case/run_lock.hpp"
 #include "case/same_case.hpp"
 #include "case/script.hpp"
@@ -37,6 +39,8 @@
 namespace hemomag::case_ {
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr int done = 0, bad_input = 2, file_trouble = 4;
 
 /// What rank 0 decided, told to all.
@@ -50,40 +54,6 @@ int fail(const std::string& message, int code) {
   return code;
 }
 
-/// The files of a run directory before it runs: name and content.
-using Files = std::map<std::string, std::string>;
-
-std::string whole_file(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string content{std::istreambuf_iterator<char>(file), {}};
-  if (!file) throw Error(path + ": cannot be read");
-  return content;
-}
-
-/// A file that a case refers to, and the name of its copy in the run directory.
-struct CaseFile {
-  std::string key, path, copy;
-};
-
-std::vector<CaseFile> files_of(const Case& c) {
-  std::vector<CaseFile> files;
-  if (const std::string copy = geometry_copy(c); !copy.empty())
-    files.push_back({"channel.geometry", c.channel.geometry, copy});
-  if (!c.cells.empty() && c.cells[0].placement == Placement::file)
-    files.push_back(
-        {entry_path("cell", 0, c.cells.size()) + ".placement", c.cells[0].packed, packed_copy});
-  for (std::size_t k = 0; k < c.cells.size(); ++k)
-    if (const std::string copy = mesh_copy(c, k); !copy.empty())
-      files.push_back({entry_path("cell", k, c.cells.size()) + ".mesh", c.cells[k].mesh, copy});
-  for (const MagneticSource& source : c.magnetic.sources)
-    if (source.table) files.push_back({"magnetic.file", source.file, table_copy(source)});
-  return files;
-}
-
-void add_copies(const Case& c, Files& files) {
-  for (const auto& file : files_of(c)) files[file.copy] = whole_file(file.path);
-}
-
 /// The card and the starting state; nothing is written. Rank 0 only.
 int prepare(const Case& c, const RunOptions& options, Files& files, System& system) {
   const auto models = cell_models(c);
@@ -92,27 +62,17 @@ int prepare(const Case& c, const RunOptions& options, Files& files, System& syst
     std::fprintf(stderr, "%s", card.refusals().c_str());
     return bad_input;
   }
-  if (std::filesystem::exists(options.out) && !options.force)
-    return fail("--out " + options.out +
-                    ": exists already; accepted: another directory, or --force to replace it",
-                bad_input);
+  require_free(c, options);
   system = place(c);
   if (system.packing) {
     std::printf("%s", packing_text(*system.packing).c_str());
-    files["pack.json"] = packing_json(*system.packing);
+    files[packing_report] = packing_json(*system.packing);
   }
   files["case.toml"] = c.text;
   files["cells.data"] = cells_data(c, system);
   files["in.lammps"] = saving_script(c, system);
   add_copies(c, files);
   return done;
-}
-
-/// Everything that was there goes, but for the lock that the run holds.
-void write_directory(const std::string& out, const Files& files) {
-  for (const auto& entry : std::filesystem::directory_iterator(out))
-    if (entry.path().filename() != RunLock::name) std::filesystem::remove_all(entry.path());
-  for (const auto& [name, content] : files) io::replace_file(out + "/" + name, content);
 }
 
 /// Where a run goes on.
@@ -129,17 +89,30 @@ void require_same_file(const Case& c, const std::string& key, const std::string&
                 "; accepted with --resume: the file the run was started with");
 }
 
+/// What a run in a directory was made of must be what it goes on with. @throws Error with the key
+/// that differs
+void require_same_input(const Case& c, const std::string& out, const std::string& before) {
+  require_same_case(c, before);
+  for (const auto& file : files_of(c))
+    require_same_file(c, file.key, file.path, out + "/" + file.copy);
+}
+
 /// Whether the case can go on from a checkpoint of a run directory. @throws Error with the key that
 /// differs
 void require_same_run(const Case& c, const std::string& out, const Resumption& from) {
-  require_same_case(c, whole_file(out + "/" + from.checkpoint + "/case.toml"));
-  for (const auto& file : files_of(c))
-    require_same_file(c, file.key, file.path, out + "/" + file.copy);
+  const std::string before = whole_file(out + "/" + from.checkpoint + "/case.toml");
+  require_same_input(c, out, before);
+  require_room_for_output(c, before, out);
   const Case was = read_case(out + "/case.toml", {});
-  if (was.analysis.average_from != c.analysis.average_from)
-    throw Error(position(c, "run.time") +
-                ": moves the default of analysis.average_from, from which the run has averaged; "
-                "accepted: analysis.average_from given");
+  const double from_s = was.analysis.average_from;
+  if (std::fabs(from_s - c.analysis.average_from) > 1e-9 * from_s) {  // the text is rounded
+    char seconds[40];
+    std::snprintf(seconds, sizeof seconds, "\"%.9g s\"", from_s);
+    throw Error(position(c, "analysis.average_from") +
+                ": is another time (the default moves with "
+                "run.time) than that from which the run has averaged; accepted: " +
+                seconds);
+  }
   if (from.record.step > steps(c))
     throw Error(position(c, c.run.time ? "run.time" : "run.steps") + ": " +
                 std::to_string(steps(c)) + " steps end before the checkpoint, which is of step " +
@@ -229,8 +202,21 @@ int start(const Case& c, const RunOptions& options, std::unique_ptr<RunLock>& lo
   std::printf("%s\n", c.title.c_str());
   io::make_directory(options.out);
   lock = std::make_unique<RunLock>(options.out);
-  write_directory(options.out, files);
+  write_directory(options, files);
   return done;
+}
+
+bool has_checkpoint(const std::string& out) {
+  for (const auto& entry : fs::directory_iterator(out))
+    if (entry.path().stem() == checkpoint_name) return true;
+  return false;
+}
+
+int nothing_to_resume(const RunOptions& options) {
+  return fail("--resume: " + options.out +
+                  " holds no whole checkpoint; accepted: the directory of a run that wrote one, or "
+                  "a new run with --force",
+              bad_input);
 }
 
 /// The last whole checkpoint of the run directory, found by all ranks.
@@ -241,11 +227,7 @@ int find(const RunOptions& options, MPI_Comm comm, Resumption& from) {
     return agreed(comm, [&] {
       for (const auto& reason : found.refused)
         std::fprintf(stderr, "hemomag: not used: %s\n", reason.c_str());
-      if (found.directory.empty())
-        return fail("--resume: " + options.out +
-                        " holds no whole checkpoint; accepted: the directory of a run that wrote "
-                        "one, or a new run with --force",
-                    bad_input);
+      if (found.directory.empty()) return nothing_to_resume(options);
       from = {io::name_of(found.directory), found.record};
       return done;
     });
@@ -272,6 +254,7 @@ int execute(const Case& c, const RunOptions& options, double wall_before_s, MPI_
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
   lammps::Host host({"-screen", "none", "-log", "none"}, comm);
+  if (rank != 0) host.keep_log();
   const double start = MPI_Wtime();
   host.command(options.resume ? "log log.lammps append" : "log log.lammps");
   execute(host, options.resume ? "resume.lammps" : "in.lammps", lattice_units(c).dt);
@@ -294,21 +277,35 @@ int simulate(const Case& c, const RunOptions& options, double wall_before_s, MPI
   int rank = 0, code = done;
   MPI_Comm_rank(comm, &rank);
   // From here on LAMMPS itself ends the process when something goes wrong (break_off.hpp).
-  const auto home = std::filesystem::current_path();
-  std::filesystem::current_path(options.out);
+  const auto home = fs::current_path();
+  fs::current_path(options.out);
   try {
     const RunInProgress running(rank);
     code = execute(c, options, wall_before_s, comm);
-  } catch (const std::exception& e) {
+  } catch (const Error& e) {
     code = rank == 0 ? fail(e.what(), file_trouble) : file_trouble;
+  } catch (const std::exception& e) {
+    // What this rank alone has met (no memory, for one): others may wait for it, and all end.
+    fail("rank " + std::to_string(rank) + ": " + e.what(), file_trouble);
+    PMPI_Abort(comm, file_trouble);
   }
-  std::filesystem::current_path(home);
+  fs::current_path(home);
   return code;
+}
+
+/// Give the main script the layer that has been measured. Rank 0 only.
+int use_layer(Case c, const System& models, const std::string& out) {
+  c.analysis.layer = layer_of(out + "/" + layer_summary);
+  io::replace_file(out + "/in.lammps", saving_script(c, models));
+  for (const auto& entry : fs::directory_iterator(out + "/" + layer_directory))
+    if (entry.path().stem() == checkpoint_name) fs::remove_all(entry.path());
+  std::printf("cell-free layer: %.3f um\n", c.analysis.layer * 1e6);
+  return done;
 }
 
 /// Run the cells alone in DIR/layer, and give the main script the layer that they leave free.
 /// Collective.
-int measure_layer(Case c, const System& system, const std::string& out, MPI_Comm comm) {
+int measure_layer(const Case& c, const System& system, const std::string& out, MPI_Comm comm) {
   const Case alone = cells_alone(c);
   const RunOptions options{out + "/" + layer_directory};
   int code = agreed(comm, [&] {
@@ -316,27 +313,44 @@ int measure_layer(Case c, const System& system, const std::string& out, MPI_Comm
     cells.carriers.clear();
     Files files{{"case.toml", alone.text},
                 {"cells.data", cells_data(alone, cells)},
-                {"in.lammps", lammps_script(alone, cells)}};
+                {"in.lammps", saving_script(alone, cells)}};
     add_copies(alone, files);
     io::make_directory(options.out);
-    write_directory(options.out, files);
+    write_directory(options, files);
     return done;
   });
   if (code == done) code = simulate(alone, options, 0, comm);
+  return code == done ? agreed(comm, [&] { return use_layer(c, system, out); }) : code;
+}
+
+/// A run that stopped before its first checkpoint, while its layer was measured: go on there.
+/// Collective.
+int finish_layer(const Case& c, const RunOptions& options, MPI_Comm comm) {
+  const Case alone = cells_alone(c);
+  const RunOptions layer{options.out + "/" + layer_directory, false, true};
+  Resumption from;
+  int code = agreed(comm, [&] {
+    require_same_input(c, options.out, whole_file(options.out + "/case.toml"));
+    return done;
+  });
+  if (code == done && !agree(fs::exists(options.out + "/" + layer_summary), comm)) {
+    code = find(layer, comm, from);
+    if (code == done) code = agreed(comm, [&] { return go_on(alone, layer, from); });
+    if (code == done) code = simulate(alone, layer, from.record.wall_s, comm);
+  }
   if (code != done) return code;
   return agreed(comm, [&] {
-    c.analysis.layer = layer_of(out + "/" + layer_summary);
-    io::replace_file(out + "/in.lammps", saving_script(c, system));
-    std::printf("cell-free layer: %.3f um\n", c.analysis.layer * 1e6);
-    return done;
+    System models;
+    models.models = cell_models(c);
+    io::replace_file(options.out + "/case.toml", c.text);
+    return use_layer(c, models, options.out);
   });
 }
 
 }  // namespace
 
 int run_case(const Case& c, const RunOptions& options, MPI_Comm comm) {
-  int rank = 0;
-  MPI_Comm_rank(comm, &rank);
+  std::signal(SIGUSR1, SIG_IGN);  // a request to save, before there is anything to be saved
   std::unique_ptr<RunLock> lock;  // rank 0's
   System system;
   Resumption from;
@@ -344,20 +358,27 @@ int run_case(const Case& c, const RunOptions& options, MPI_Comm comm) {
   int code = agreed(comm, [&] {
     require_bricks(c, ranks);
     if (!options.resume) return start(c, options, lock, system);
-    if (!std::filesystem::is_directory(options.out))
+    if (!fs::is_directory(options.out))
       return fail("--resume: there is no run directory " + options.out +
                       "; accepted: --out DIR of a run",
                   bad_input);
+    if (!fs::exists(options.out + "/in.lammps")) return nothing_to_resume(options);
     lock = std::make_unique<RunLock>(options.out);
     return done;
   });
-  if (code == done && options.resume) {
+  if (code != done) return code;
+
+  const bool layer_first =
+      c.analysis.measured && (!options.resume || agree(!has_checkpoint(options.out), comm));
+  if (layer_first) {
+    code = options.resume ? finish_layer(c, options, comm)
+                          : measure_layer(c, system, options.out, comm);
+    return code == done ? simulate(c, {options.out}, 0, comm) : code;
+  }
+  if (options.resume) {
     code = find(options, comm, from);
     if (code == done) code = agreed(comm, [&] { return go_on(c, options, from); });
   }
-  if (code != done) return code;
-
-  if (c.analysis.measured && !options.resume) code = measure_layer(c, system, options.out, comm);
   return code == done ? simulate(c, options, from.record.wall_s, comm) : code;
 }
 

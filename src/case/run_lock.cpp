@@ -2,9 +2,10 @@
 
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
 
 #include <fcntl.h>
-#include <filesystem>
 #include <sys/file.h>
 #include <unistd.h>
 
@@ -12,6 +13,8 @@
 
 namespace hemomag::case_ {
 namespace {
+
+constexpr const char* head = "process ";  // of the file's text
 
 /// "process 1234 on host", as its owner wrote it.
 std::string owner(int file) {
@@ -37,13 +40,20 @@ RunLock::RunLock(const std::string& directory)
   }
   char host[128] = "";
   gethostname(host, sizeof host - 1);
-  const std::string text = "process " + std::to_string(getpid()) + " on " + host;
+  const std::string text = head + std::to_string(getpid()) + " on " + host;
   if (ftruncate(file_, 0) != 0 ||
       pwrite(file_, text.data(), text.size(), 0) != static_cast<ssize_t>(text.size())) {
     const int reason = errno;
     close(file_);
     throw FileError(path_ + ": writing failed: " + std::strerror(reason));
   }
+}
+
+bool RunLock::was_here(const std::string& directory) {
+  std::ifstream file(directory + "/" + name);
+  std::string text;
+  std::getline(file, text);
+  return text.rfind(head, 0) == 0;
 }
 
 /// The file stays: to remove it would let two others lock two files of the same name.

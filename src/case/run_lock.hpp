@@ -13,6 +13,8 @@ public:
   /// written to
   explicit RunLock(const std::string& directory);
   ~RunLock();
+  /// Whether a directory has had one.
+  static bool was_here(const std::string& directory);
   RunLock(const RunLock&) = delete;
   RunLock& operator=(const RunLock&) = delete;
 

@@ -1,5 +1,6 @@
 #include "case/same_case.hpp"
 
+#include <filesystem>
 #include <map>
 #include <sstream>
 
@@ -34,7 +35,8 @@ std::map<std::string, std::string> values_of(const std::string& text) {
 }
 
 bool may_change(const std::string& key) {
-  return key == "title" || key.rfind("run.", 0) == 0 || key.rfind("output.", 0) == 0;
+  return key == "title" || key == "analysis.average_from" || key.rfind("run.", 0) == 0 ||
+         key.rfind("output.", 0) == 0;
 }
 
 }  // namespace
@@ -53,6 +55,28 @@ void require_same_case(const Case& c, const std::string& before) {
   }
   for (const auto& [key, value] : was)
     if (!may_change(key) && !is.contains(key)) refuse(key, value);
+}
+
+void require_room_for_output(const Case& c, const std::string& before, const std::string& out) {
+  const auto was = values_of(before);
+  const auto off = [&](const std::string& name) {
+    const auto given = was.find("output." + name);
+    return given != was.end() && given->second.find("never") != std::string::npos;
+  };
+  const auto check = [&](const char* name, bool on, bool was_off, const char* file) {
+    const std::string path = out + "/" + file;
+    if (on && was_off && std::filesystem::exists(path))
+      throw CaseError(position(c, std::string("output.") + name) +
+                      ": was \"never\" when the checkpoint was written, and " + path +
+                      " of an earlier part of the run would be lost; accepted: \"never\", or that "
+                      "file elsewhere");
+  };
+  const bool fields_off = off("fields");
+  check("fields", c.output.fields.has_value(), fields_off, "fields");
+  check("series", c.output.series.has_value(), off("series"), "margination.csv");
+  check("cells", c.output.cells.has_value(),
+        was.contains("output.cells") ? off("cells") : fields_off, "cells.csv");
+  check("profiles", c.output.profiles.has_value(), off("profiles"), "profiles.csv");
 }
 
 }  // namespace hemomag::case_

@@ -91,15 +91,39 @@ void verify(MPI_Comm comm, const Candidate& c) {
   }
 }
 
+/// Give a whole checkpoint its name, and the one that bears it the name of the previous one. A
+/// process that ends on the way leaves all that is needed to do the same again.
+void put_in_place(const std::string& directory) {
+  const std::string previous = directory + ".previous";
+  if (fs::exists(directory)) {
+    fs::remove_all(previous);
+    fs::rename(directory, previous);
+  }
+  fs::rename(unfinished(directory), directory);
+  sync_file(fs::absolute(directory).parent_path().string());
+}
+
+/// Every rank's part of a file is on the disk, whichever machine the rank is on.
+void sync_on_all(MPI_Comm comm, const std::string& path) {
+  std::string said;
+  try {
+    sync_file(path);
+  } catch (const FileError& e) {
+    said = e.what();
+  }
+  int mine = said.empty(), all = 0;
+  MPI_Allreduce(&mine, &all, 1, MPI_INT, MPI_MIN, comm);
+  if (!all) throw FileError(said.empty() ? path + ": syncing failed on another rank" : said);
+}
+
 }  // namespace
 
 std::string unfinished(const std::string& directory) { return directory + ".new"; }
 
 void begin_checkpoint(MPI_Comm comm, const std::string& directory, double bytes) {
   on_rank_0(comm, [&] {
-    // A whole one may bear this name: the run stopped just before the last rename. It is kept.
-    if (!fs::exists(directory) && fs::exists(unfinished(directory) + "/" + manifest))
-      fs::rename(unfinished(directory), directory);
+    // One that is whole may bear this name: the run stopped just before the last rename.
+    if (fs::exists(unfinished(directory) + "/" + manifest)) put_in_place(directory);
     fs::remove_all(unfinished(directory));
     make_directory(unfinished(directory));
     const double room = static_cast<double>(fs::space(unfinished(directory)).available);
@@ -122,9 +146,7 @@ void give_up_checkpoint(MPI_Comm comm, const std::string& directory) {
 void finish_checkpoint(MPI_Comm comm, const std::string& directory,
                        const std::vector<std::string>& files, const CheckpointRecord& record) {
   const std::string fresh = unfinished(directory);
-  on_rank_0(comm, [&] {
-    for (const auto& name : files) sync_file(fresh + "/" + name);
-  });
+  for (const auto& name : files) sync_on_all(comm, fresh + "/" + name);
   json m{{"format", format},
          {"step", record.step},
          {"wall_s", record.wall_s},
@@ -134,14 +156,8 @@ void finish_checkpoint(MPI_Comm comm, const std::string& directory,
     m["files"].push_back({{"name", name}, {"xxh3", text(checksum(comm, fresh + "/" + name))}});
   m["seal"] = seal(m);
   on_rank_0(comm, [&] {
-    const std::string previous = directory + ".previous";
     replace_file(fresh + "/" + manifest, m.dump(1) + "\n");
-    sync_file(fresh);
-    fs::remove_all(previous);
-    if (fs::exists(directory)) fs::rename(directory, previous);
-    fs::rename(fresh, directory);
-    const auto parent = fs::absolute(directory).parent_path();
-    sync_file(parent.string());
+    put_in_place(directory);
   });
 }
 

@@ -33,6 +33,7 @@ void replace_file(const std::string& path, const std::string& text) {
     fail(fresh, "writing");
   }
   if (std::rename(fresh.c_str(), path.c_str()) != 0) fail(path, "renaming");
+  sync_file(std::filesystem::absolute(path).parent_path().string());
 }
 
 void make_directory(const std::string& path) {

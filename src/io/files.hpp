@@ -8,8 +8,8 @@
 
 namespace hemomag::io {
 
-/// Replace a text file as a whole: written beside it, synced, renamed. @throws Error with path and
-/// reason
+/// Replace a text file as a whole: written beside it, renamed, both synced. @throws FileError with
+/// path and reason
 void replace_file(const std::string& path, const std::string& text);
 
 /// Make a directory; an existing one is fine. @throws Error with path and reason

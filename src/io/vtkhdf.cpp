@@ -1,11 +1,10 @@
 #include "io/vtkhdf.hpp"
 
-#include <numeric>
-
 #include <hdf5.h>
 
 #include "base/error.hpp"
 #include "io/hdf5_handle.hpp"
+#include "io/shared_file.hpp"
 
 namespace hemomag::io {
 namespace {
@@ -20,11 +19,8 @@ void check(herr_t status, const std::string& what) {
 class File {
 public:
   File(MPI_Comm comm, const std::string& path, const char* type)
-      : path_(path), access_(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, path),
-        transfer_(H5Pcreate(H5P_DATASET_XFER), H5Pclose, path),
-        file_(open(comm, path), H5Fclose, path),
+      : path_(path), file_(comm, path, SharedFile::Open::create),
         root_(H5Gcreate2(file_, "VTKHDF", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, path) {
-    H5Pset_dxpl_mpio(transfer_, H5FD_MPIO_COLLECTIVE);
     attribute("Version", H5T_NATIVE_INT, std::array{1, 0});
     const std::string text = type;
     const Handle string(H5Tcopy(H5T_C_S1), H5Tclose, path_);
@@ -48,37 +44,20 @@ public:
     Handle(H5Gcreate2(root_, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, path_);
   }
 
-  /// A dataset of extent `whole`, of which this rank writes the box of `count` at `start`.
-  void dataset(const std::string& name, hid_t stored, hid_t given,
-               const std::vector<hsize_t>& whole, const std::vector<hsize_t>& start,
-               const std::vector<hsize_t>& count, const void* values) {
-    const int rank = static_cast<int>(whole.size());
-    const Handle space(H5Screate_simple(rank, whole.data(), nullptr), H5Sclose, path_);
-    const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, path_);
-    H5Pset_obj_track_times(creation, false);  // equal states make equal files
-    const Handle data(
-        H5Dcreate2(root_, name.c_str(), stored, space, H5P_DEFAULT, creation, H5P_DEFAULT),
-        H5Dclose, path_);
-    const Handle memory(H5Screate_simple(rank, count.data(), nullptr), H5Sclose, path_);
-    const hsize_t mine =
-        std::accumulate(count.begin(), count.end(), hsize_t{1}, std::multiplies<>());
-    if (mine > 0) {
-      H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr);
-    } else {
-      H5Sselect_none(space);
-      H5Sselect_none(memory);
-    }
-    check(H5Dwrite(data, given, memory, space, transfer_, values), path_);
+  void dataset(const std::string& name, hid_t stored, hid_t given, const Box& box,
+               const void* values) {
+    file_.write(root_, name, stored, given, box, values);
+  }
+
+  void close() {
+    root_.close(path_);
+    file_.close();
   }
 
 private:
-  hid_t open(MPI_Comm comm, const std::string& path) {
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // our own message is enough
-    H5Pset_fapl_mpio(access_, comm, MPI_INFO_NULL);
-    return H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access_);
-  }
   std::string path_;
-  Handle access_, transfer_, file_, root_;
+  SharedFile file_;
+  Handle root_;
 };
 
 /// Where this rank's `mine` items stand among those of all ranks.
@@ -95,14 +74,18 @@ struct Share {
   }
 };
 
+/// Vectors have their components as the last extent.
+void add_components(Box& box, int components) {
+  if (components == 1) return;
+  box.whole.push_back(static_cast<hsize_t>(components));
+  box.start.push_back(0);
+  box.count.push_back(static_cast<hsize_t>(components));
+}
+
 void write_array(File& file, const std::string& group, const DataArray& array, const Share& share) {
-  std::vector<hsize_t> whole{share.all}, start{share.before}, count{share.mine};
-  if (array.components > 1) {
-    whole.push_back(static_cast<hsize_t>(array.components));
-    start.push_back(0);
-    count.push_back(static_cast<hsize_t>(array.components));
-  }
-  file.dataset(group + "/" + array.name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, whole, start, count,
+  Box box{{share.all}, {share.before}, {share.mine}};
+  add_components(box, array.components);
+  file.dataset(group + "/" + array.name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, box,
                array.values.data());
 }
 
@@ -119,20 +102,17 @@ void write_image(MPI_Comm comm, const std::string& path, const lattice::Block& b
   file.attribute("Direction", H5T_NATIVE_DOUBLE, std::array{1., 0., 0., 0., 1., 0., 0., 0., 1.});
   file.group("PointData");
   for (const DataArray& array : arrays) {
-    std::vector<hsize_t> whole, start, count;
+    Box box;
     for (const std::size_t d : {std::size_t{2}, std::size_t{1}, std::size_t{0}}) {
-      whole.push_back(static_cast<hsize_t>(block.global[d]));
-      start.push_back(static_cast<hsize_t>(block.begin[d]));
-      count.push_back(static_cast<hsize_t>(block.size[d]));
+      box.whole.push_back(static_cast<hsize_t>(block.global[d]));
+      box.start.push_back(static_cast<hsize_t>(block.begin[d]));
+      box.count.push_back(static_cast<hsize_t>(block.size[d]));
     }
-    if (array.components > 1) {
-      whole.push_back(static_cast<hsize_t>(array.components));
-      start.push_back(0);
-      count.push_back(static_cast<hsize_t>(array.components));
-    }
-    file.dataset("PointData/" + array.name, H5T_IEEE_F32LE, H5T_NATIVE_DOUBLE, whole, start, count,
+    add_components(box, array.components);
+    file.dataset("PointData/" + array.name, H5T_IEEE_F32LE, H5T_NATIVE_DOUBLE, box,
                  array.values.data());
   }
+  file.close();
 }
 
 void write_grid(MPI_Comm comm, const std::string& path, Shape shape, std::span<const double> points,
@@ -153,27 +133,28 @@ void write_grid(MPI_Comm comm, const std::string& path, Shape shape, std::span<c
   file.group("PointData");
   file.group("CellData");
   const auto count_of = [&](const char* name, std::int64_t n) {
-    file.dataset(name, H5T_STD_I64LE, H5T_NATIVE_INT64, {at_parts.all}, {at_parts.before},
-                 {at_parts.mine}, &n);
+    file.dataset(name, H5T_STD_I64LE, H5T_NATIVE_INT64,
+                 {{at_parts.all}, {at_parts.before}, {at_parts.mine}}, &n);
   };
   count_of("NumberOfPoints", static_cast<std::int64_t>(at_points.mine));
   count_of("NumberOfCells", static_cast<std::int64_t>(cells));
   count_of("NumberOfConnectivityIds", static_cast<std::int64_t>(connectivity.size()));
-  file.dataset("Points", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, {at_points.all, 3},
-               {at_points.before, 0}, {at_points.mine, 3}, points.data());
-  file.dataset("Connectivity", H5T_STD_I64LE, H5T_NATIVE_INT64, {at_corners.all},
-               {at_corners.before}, {at_corners.mine}, connectivity.data());
+  file.dataset("Points", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE,
+               {{at_points.all, 3}, {at_points.before, 0}, {at_points.mine, 3}}, points.data());
+  file.dataset("Connectivity", H5T_STD_I64LE, H5T_NATIVE_INT64,
+               {{at_corners.all}, {at_corners.before}, {at_corners.mine}}, connectivity.data());
   std::vector<std::int64_t> offsets(part ? cells + 1 : 0);
   for (std::size_t k = 0; k < offsets.size(); ++k)
     offsets[k] = static_cast<std::int64_t>(k * corners);
   const Share at_offsets(comm, offsets.size());
-  file.dataset("Offsets", H5T_STD_I64LE, H5T_NATIVE_INT64, {at_offsets.all}, {at_offsets.before},
-               {at_offsets.mine}, offsets.data());
+  file.dataset("Offsets", H5T_STD_I64LE, H5T_NATIVE_INT64,
+               {{at_offsets.all}, {at_offsets.before}, {at_offsets.mine}}, offsets.data());
   const std::vector<std::uint8_t> types(cells, static_cast<std::uint8_t>(shape));
-  file.dataset("Types", H5T_STD_U8LE, H5T_NATIVE_UINT8, {at_cells.all}, {at_cells.before},
-               {at_cells.mine}, types.data());
+  file.dataset("Types", H5T_STD_U8LE, H5T_NATIVE_UINT8,
+               {{at_cells.all}, {at_cells.before}, {at_cells.mine}}, types.data());
   for (const auto& array : point_arrays) write_array(file, "PointData", array, at_points);
   for (const auto& array : cell_arrays) write_array(file, "CellData", array, at_cells);
+  file.close();
 }
 
 }  // namespace hemomag::io

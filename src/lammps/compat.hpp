@@ -1,5 +1,4 @@
 #pragma once
-#include <cstdio>
 #include <string>
 
 #include "compute.h"
@@ -31,11 +30,10 @@ template <class Style> Style* find_compute(LAMMPS_NS::LAMMPS* lmp, const std::st
 }
 
 /// A fatal error that this rank alone has met. LAMMPS 29 Sep 2021 aborts all ranks here, with its
-/// message on the screen, which a quiet run has turned off: then the message goes to standard
-/// error.
+/// message on the screen, which a quiet run has turned off: then the program that ends says it.
 [[noreturn]] inline void fail_here(LAMMPS_NS::LAMMPS* lmp, const char* file, int line,
                                    const std::string& message) {
-  if (!lmp->screen) std::fprintf(stderr, "hemomag: %s\n", message.c_str());
+  if (!lmp->screen) ending().reason = message;
   lmp->error->one(file, line, message);
 }
 

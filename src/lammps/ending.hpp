@@ -18,7 +18,11 @@ struct Ending {
 /// That of this process, set before LAMMPS is told of an error.
 Ending& ending();
 
-/// A file or the disk ends the run on all ranks, with exit code 4 and one line on standard error.
+/// LAMMPS's messages on a rank other than 0, when they are kept (Host::keep_log), or null.
+std::FILE*& kept_log();
+
+/// A file or the disk ends the run on all ranks, with exit code 4 and one line on standard error;
+/// a run that ends already, being unsound, keeps that as its reason, and exit code 3.
 /// LAMMPS is not asked to: it would end MPI, and with it HDF5, which crashes over a file that it
 /// could not write. Collective.
 /// @param log  LAMMPS's, or null

@@ -31,6 +31,7 @@ namespace {
 constexpr const char* atoms_file = "atoms.restart";
 constexpr const char* fluid_file = "fluid.h5";
 constexpr int consult_every = 10;                     // steps, where no list is made
+constexpr double slow_step = 0.1;                     // seconds, from which each step is asked
 constexpr double patience = 5;                        // seconds to wait for a step without a trace
 constexpr double bytes_per_atom = 800, margin = 1e5;  // of LAMMPS's restart file; of the small ones
 constexpr double never = std::numeric_limits<double>::infinity();
@@ -144,19 +145,22 @@ bool FixHemoCheckpoint::seamless() const {
 int FixHemoCheckpoint::consult() {
   int mine = signals_.seen(), all = 0;
   if (comm->me == 0) {
-    const double now = MPI_Wtime();
+    const double now = MPI_Wtime(), steps = each_step_ ? 1 : consult_every;
+    if (now - consulted_ > steps * slow_step) mine |= slow;
+    consulted_ = now;
     if (interval_ < never && now - saved_ >= interval_) mine |= due;
     if (pending_ && now - wanted_since_ > patience) mine |= waited;
   }
   MPI_Allreduce(&mine, &all, 1, MPI_INT, MPI_BOR, world);
-  return all;
+  each_step_ = all & slow;
+  return all & ~slow;
 }
 
 void FixHemoCheckpoint::end_of_step() {
   const bigint now = update->ntimestep;
   const bool at_end = now == update->laststep;
   if (now >= next_reneighbor) schedule();
-  if (!seamless() && !at_end && now % consult_every != 0) return;
+  if (!seamless() && !at_end && !each_step_ && !pending_ && now % consult_every != 0) return;
   const int wanted = consult();
   if (wanted && !pending_) wanted_since_ = MPI_Wtime();
   pending_ |= wanted;

@@ -43,7 +43,7 @@ public:
   double seconds() const { return spent_; }
 
 private:
-  enum Bits { due = 8, waited = 16 };  // beside those of SignalsNoted
+  enum Bits { due = 8, waited = 16, slow = 32 };  // beside those of SignalsNoted
 
   void parse(int narg, char** arg);
   void schedule();
@@ -61,6 +61,8 @@ private:
   int every_ = 100;
   int pending_ = 0;                 // bits of what a checkpoint is wanted for
   double wanted_since_ = 0;         // on rank 0
+  bool each_step_ = true;           // all ranks are asked in each step: steps are slow
+  double consulted_ = 0;            // MPI_Wtime
   double started_ = 0, saved_ = 0;  // MPI_Wtime
   double spent_ = 0;                // [s] on checkpoints
   bigint last_step_ = -1;           // of a checkpoint

@@ -71,13 +71,15 @@ void FixHemoSnapshot::write() {
   last_ = update->ntimestep;
   char number[16];
   std::snprintf(number, sizeof number, "_%05d", count_++);
-  hemomag::lammps::or_fail(lmp, FLERR, [&] {
-    for (auto& kind : kinds_) {
-      const std::string file = std::string(kind.name) + number + ".vtkhdf";
-      (this->*kind.write)(directory_ + "/" + file);
+  for (auto& kind : kinds_) {
+    const std::string file = std::string(kind.name) + number + ".vtkhdf";
+    const std::string path = directory_ + "/" + file;
+    hemomag::lammps::or_fail(lmp, FLERR, [&] { (this->*kind.write)(path); });
+    hemomag::lammps::or_fail(lmp, FLERR, [&] {
       if (comm->me == 0) kind.index.add(file, static_cast<double>(last_) * dt_s_);
-    }
-  });
+    });
+    unsynced_.push_back(path);
+  }
 }
 
 void FixHemoSnapshot::write_fluid(const std::string& path) {
@@ -138,7 +140,16 @@ void FixHemoSnapshot::write_carriers(const std::string& path) {
   io::write_grid(world, path, io::Shape::vertex, points, corners, {velocity, id, worm, moment}, {});
 }
 
+/// A checkpoint relies on the snapshots before it: they are on the disk first, each rank's part by
+/// itself.
 void FixHemoSnapshot::write_restart(FILE* file) {
+  try {
+    for (const auto& path : unsynced_)
+      if (io::is_readable(path)) io::sync_file(path);  // else somebody took it away
+  } catch (const hemomag::Error& e) {
+    hemomag::lammps::fail_here(lmp, FLERR, e);
+  }
+  unsynced_.clear();
   hemomag::lammps::write_state(file, comm->me,
                                {static_cast<double>(last_), static_cast<double>(count_)});
 }

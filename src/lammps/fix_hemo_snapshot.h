@@ -47,6 +47,7 @@ private:
   bigint last_ = -1;
   FixHemoFluid* fluid_ = nullptr;
   std::vector<Kind> kinds_;
+  std::vector<std::string> unsynced_;  // files since the last checkpoint
 };
 
 }  // namespace LAMMPS_NS

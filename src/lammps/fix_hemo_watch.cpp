@@ -110,11 +110,18 @@ void FixHemoWatch::setup(int) {
 
 // What has no force or no place in the lists of LAMMPS must be found before it computes these.
 void FixHemoWatch::post_integrate() {
+  const double start = MPI_Wtime();
   check_plates();
+  check_motion();
   check_accidents();
+  record_.seconds += MPI_Wtime() - start;
 }
 
-void FixHemoWatch::final_integrate() { check_accidents(); }
+void FixHemoWatch::final_integrate() {
+  const double start = MPI_Wtime();
+  check_accidents();
+  record_.seconds += MPI_Wtime() - start;
+}
 void FixHemoWatch::end_of_step() { look(); }
 void FixHemoWatch::post_run() {
   if (last_ != update->ntimestep && update->ntimestep == update->laststep) look();
@@ -201,11 +208,31 @@ void FixHemoWatch::check_plates() {
       const double* x = atom->x[i];
       if (x[d] > low && x[d] < high) continue;
       note(name_of(i) + " at " + three(x) +
-           " is beyond a plate, or not finite (forces too strong "
-           "for the time step)");
+           " is beyond a plate, or not finite (forces too strong for the time step)");
       return;
     }
   }
+}
+
+/// In every step: does an atom of this rank move farther than LAMMPS can follow it? Velocities are
+/// displacements in a step.
+void FixHemoWatch::check_motion() {
+  const double limit2 = displacement_limit_ * displacement_limit_;
+  for (int i = 0; i < atom->nlocal; ++i) {
+    const double* v = atom->v[i];
+    const double step2 = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+    if (step2 <= limit2) continue;
+    note(too_fast(i));
+    return;
+  }
+}
+
+/// What is said of an atom whose displacement is beyond the limit, or not finite.
+std::string FixHemoWatch::too_fast(int i) const {
+  const double* v = atom->v[i];
+  return name_of(i) + " at " + three(atom->x[i]) + " moves " +
+         std::to_string(std::hypot(v[0], v[1], v[2])) + " nodes in a step, the limit is " +
+         std::to_string(displacement_limit_) + " (forces too strong for the time step)";
 }
 
 void FixHemoWatch::check_accidents() {
@@ -230,7 +257,6 @@ void FixHemoWatch::check_finite() {
   violation(worst.rank, what);
 }
 
-/// Velocities are displacements in a step.
 double FixHemoWatch::check_displacement() {
   double most = 0;
   int at = -1;
@@ -243,10 +269,7 @@ double FixHemoWatch::check_displacement() {
   }
   const Extreme worst(world, comm->me, std::sqrt(most));
   if (worst.value > displacement_limit_)
-    violation(worst.rank, (comm->me == worst.rank ? name_of(at) : "") + " moves " +
-                              std::to_string(worst.value) + " nodes in a step, the limit is " +
-                              std::to_string(displacement_limit_) +
-                              " (forces too strong for the time step)");
+    violation(worst.rank, comm->me == worst.rank ? too_fast(at) : "");
   return worst.value;
 }
 

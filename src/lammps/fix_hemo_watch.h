@@ -28,7 +28,7 @@ public:
     double mach_max = 0;
     double displacement_max = 0;                      ///< of an atom in a step, in nodes
     double stretch_max = 0;                           ///< length of an edge over its limit
-    double seconds = 0;                               ///< spent on looks by this process
+    double seconds = 0;                               ///< spent by this process, waiting included
     double area_drift_max = 0, volume_drift_max = 0;  ///< largest |A/A0 - 1|, |V/V0 - 1| of a cell
   };
 
@@ -60,6 +60,7 @@ private:
   void look();
   Seen inspect();
   void check_plates();
+  void check_motion();
   void check_accidents();
   void check_finite();
   double check_displacement();
@@ -71,6 +72,7 @@ private:
   int group_bit(const char* name);
   bigint count(int bits) const;
   std::string name_of(int i) const;
+  std::string too_fast(int i) const;
   [[noreturn]] void violation(int rank, const std::string& what);
 
   double mach_limit_ = 0.3;

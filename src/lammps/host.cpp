@@ -3,6 +3,7 @@
 #include "comm.h"
 #include "input.h"
 #include "lammps.h"
+#include "lammps/ending.hpp"
 #include "lammps/style_table.hpp"
 
 namespace hemomag::lammps {
@@ -17,12 +18,14 @@ Host::Host(std::vector<std::string> arguments, MPI_Comm comm) : arguments_(std::
   register_styles(*lmp_);
 }
 
-Host::~Host() = default;
+Host::~Host() { kept_log() = nullptr; }  // LAMMPS closes it
 
 std::array<int, 3> Host::rank_grid() const {
   const int* grid = lmp_->comm->procgrid;
   return {grid[0], grid[1], grid[2]};
 }
+
+void Host::keep_log() { kept_log() = lmp_->logfile = std::tmpfile(); }
 
 void Host::command(const std::string& line) { lmp_->input->one(line); }
 

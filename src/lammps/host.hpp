@@ -27,6 +27,9 @@ public:
   /// Ranks along each axis of the box.
   std::array<int, 3> rank_grid() const;
 
+  /// Keep LAMMPS's messages on a rank other than 0, which has no log: in kept_log().
+  void keep_log();
+
   /// Execute one line of LAMMPS input.
   void command(const std::string& line);
   /// Execute a script file, or standard input as given by `-in` when `path` is empty.

@@ -194,6 +194,84 @@ TEST_F(Faults, ResumingNeedsTheFilesOfTheRun) {
   expect_said(run(1, "run", "--resume"), 2, {"run/layer/summary.json: has no measured layer"});
 }
 
+TEST_F(Faults, ALongerRunMayMoveTheDefaultOfItsAverage) {
+  std::string text = small;
+  text.replace(text.find("average_from = \"0 s\"\n"), 21, "");
+  text.replace(text.find("steps = 300"), 11, "time = \"0.3 ms\"");
+  write_case(text);
+  ASSERT_EQ(run(1, "run").code, 0);
+  expect_said(run(1, "run", "--resume --set run.time='0.6 s'"), 2,
+              {"analysis.average_from: is another time", "accepted: \"0 s\""});
+  const std::string given = " --set analysis.average_from=";
+  expect_said(run(1, "run", "--resume --set run.time='0.4 ms'" + given + "'0.1 ms'"), 2,
+              {"--set analysis.average_from", "accepted: \"0 s\""});
+  EXPECT_EQ(run(1, "run", "--resume --set run.time='0.4 ms'" + given + "'0 s'").code, 0);
+}
+
+TEST_F(Faults, OutputThatWasOffReplacesNothing) {
+  ASSERT_EQ(run(1, "run", "--set run.steps=100").code, 0);
+  const std::string never = " --set output.fields=never --set output.series=never";
+  ASSERT_EQ(run(1, "run", "--resume --set run.steps=200" + never).code, 0);
+  const std::string rows = content(directory_ / "run/cells.csv");
+  const std::string again = "--resume --set run.steps=300";
+  expect_said(run(1, "run", again), 2, {"output.fields: was \"never\"", "run/fields", "accepted"});
+  expect_said(run(1, "run", again + " --set output.fields=never"), 2,
+              {"output.series: was \"never\"", "run/margination.csv", "accepted"});
+  EXPECT_EQ(content(directory_ / "run/cells.csv"), rows);
+  EXPECT_EQ(run(1, "run", again + never).code, 0);
+}
+
+TEST_F(Faults, OnlyARunIsReplaced) {
+  std::filesystem::create_directories(directory_ / "mine");
+  std::ofstream(directory_ / "mine/thesis.txt") << "years of work";
+  expect_said(run(1, "mine", "--force"), 2, {"--out mine: holds other things", "accepted"});
+  expect_said(run(1, ".", "--force"), 2, {"--out .: holds other things", "accepted"});
+  expect_said(run(1, "case.toml", "--force"), 2, {"--out case.toml: is no directory", "accepted"});
+  EXPECT_EQ(content(directory_ / "mine/thesis.txt"), "years of work");
+  ASSERT_EQ(run(1, "run", "--set run.steps=10").code, 0);
+  std::filesystem::copy_file(directory_ / "case.toml", directory_ / "run/own.toml");
+  expect_said(shell("cd " + directory_.string() +
+                    " && " HEMOMAG_BINARY " run run/own.toml --out run --force"),
+              2, {"holds run/own.toml of the case"});
+  std::filesystem::remove(directory_ / "run/own.toml");
+  // The run's own copy of its case is that of a run to be repeated.
+  EXPECT_EQ(shell("cd " + directory_.string() +
+                  " && " HEMOMAG_BINARY " run run/case.toml --out run --force")
+                .code,
+            0);
+}
+
+TEST_F(Faults, ARunThatWasSlowerToStartReplacesNothing) {
+  std::string text = small;
+  text.replace(text.find("count = 1\n"), 10, "count = 4\nplacement = \"compress\"\n");
+  std::ofstream(directory_ / "slow.toml") << text;
+  const Outcome both = shell(
+      "cd " + directory_.string() + "; " HEMOMAG_BINARY " run slow.toml --out run & sleep 0.3; (" +
+      command(1, "run", "--set run.steps=10") + "); echo quick $?; wait %1; echo slow $?");
+  expect_said(both, 0, {"quick 0", "slow 2", "exists already"});
+  EXPECT_EQ(content(directory_ / "run/case.toml").find("compress"), std::string::npos);
+}
+
+TEST_F(Faults, AStopWhileTheLayerIsMeasuredLosesNothing) {
+  std::string text = small;
+  text.replace(text.find("average_from = \"0 s\"\n"), 21,
+               "layer = \"measured\"\nlayer_run = \"30 ms\"\n");
+  write_case(text);
+  ASSERT_EQ(run(1, "whole").code, 0);
+  const std::string saved = (directory_ / "run/layer/checkpoint").string();
+  const Outcome stopped =
+      shell(command(1, "run") + " & while ! [ -d " + saved +
+            " ]; do sleep 0.02; done; kill -TERM " + process("run") + "; wait %1");
+  expect_said(stopped, 143, {"--resume goes on from it"});
+  ASSERT_TRUE(std::filesystem::exists(saved));
+  expect_said(run(1, "run", "--resume --set seed=2"), 2, {"--set seed:", "accepted"});
+  expect_said(run(1, "run", "--resume"), 0, {"going on from step", "cell-free layer"});
+  expect_same("whole", "run");
+  for (const char* rows : {"layer/profiles.csv", "layer/layer.csv"})
+    EXPECT_EQ(content(directory_ / "whole" / rows), content(directory_ / "run" / rows)) << rows;
+  EXPECT_FALSE(std::filesystem::exists(saved));
+}
+
 TEST_F(Faults, TwoRunsDoNotShareADirectory) {
   const std::string again = command(1, "run", "--force"), resume = command(1, "run", "--resume");
   const Outcome both =
@@ -218,6 +296,20 @@ TEST_F(Faults, AWriteThatFailsHalfWayEndsTheRunAndKeepsThePreviousCheckpoint) {
   EXPECT_FALSE(std::filesystem::exists(directory_ / "run/checkpoint.new"));
   const std::string further = std::to_string(saved_step("run/checkpoint") + 50);
   EXPECT_EQ(run(1, "run", "--resume --set output.fields=never --set run.steps=" + further).code, 0);
+}
+
+// One rank alone learns that the file did not grow.
+TEST_F(Faults, AWriteThatFailsOnOneRankEndsAll) {
+  const std::string saved = (directory_ / "half/checkpoint").string(),
+                    program = HEMOMAG_BINARY " run case.toml --out half --set run.steps=200000 "
+                                             "--set output.fields=never";
+  const Outcome failed = shell(
+      "cd " + directory_.string() + "; mpirun -np 2 sh -c \"trap '' XFSZ; exec " + program +
+      "\" & while ! [ -d " + saved + " ]; do sleep 0.05; done; for p in $(pgrep -f '^" +
+      HEMOMAG_BINARY " run case.toml --out half'); do prlimit --fsize=300000 --pid $p; done; " +
+      "kill -USR1 " + process("half") + "; wait %1");
+  expect_said(failed, 4, {"hemomag: checkpoint.new/fluid.h5"});
+  EXPECT_GT(saved_step("half/checkpoint"), 0);
 }
 
 /// A disk of its own: needs the right to mount.
@@ -263,6 +355,18 @@ TEST_F(Disk, AFullOneEndsTheRunAndKeepsThePreviousCheckpoint) {
     std::filesystem::remove(fill);
     EXPECT_EQ(run(ranks, out, "--resume --set run.steps=400 --set output.fields=never").code, 0);
     std::filesystem::remove_all(directory_ / out);
+  }
+}
+
+TEST_F(Disk, SnapshotsThatFillItEndAllRanks) {
+  for (const int size : {1000, 1100, 1200}) {
+    const std::string kilobytes = "size=" + std::to_string(size) + "k";
+    ASSERT_EQ(mount("tmpfs", disk().c_str(), "tmpfs", MS_REMOUNT, kilobytes.c_str()), 0);
+    const Outcome full = shell(
+        "timeout 100 sh -c '" +
+        command(2, "disk/run", "--set run.checkpoint=never --set output.fields=\"30 us\"") + "'");
+    expect_said(full, 4, {"hemomag: fields/"});
+    std::filesystem::remove_all(directory_ / "disk/run");
   }
 }
 

@@ -12,6 +12,15 @@ constexpr const char* plates = R"([channel]
 size = ["8 um", "9 um", "8 um"]
 shear_rate = "200 s-1"
 )";
+constexpr const char* symmetric = R"([channel]
+size = ["8 um", "9 um", "8 um"]
+plates = "symmetric"
+shear_rate = "200 s-1"
+)";
+constexpr const char* driven = R"([channel]
+size = ["8 um", "9 um", "8 um"]
+mean_velocity = "0.5 mm/s"
+)";
 constexpr const char* periodic = R"([channel]
 size = ["8 um", "9 um", "8 um"]
 boundary = "periodic"
@@ -42,6 +51,16 @@ count = 12
 radius = "125 nm"
 density = "2000 kg/m3"
 )";
+constexpr const char* saturating = R"([[carrier]]
+count = 12
+radius = "125 nm"
+saturation_magnetisation = "400 kA/m"
+)";
+constexpr const char* one_way = R"([[carrier]]
+count = 12
+radius = "125 nm"
+feedback = false
+)";
 constexpr const char* surfaces = R"([contact]
 carrier_contact = "surface"
 )";
@@ -70,7 +89,7 @@ struct Study {
 };
 
 std::string text(const Study& s) {
-  const bool sheared = s.channel == plates;
+  const bool sheared = s.channel.find("shear_rate") != std::string::npos;
   const bool coarse = s.channel == voxels;
   return std::string("title = \"") + s.name + "\"\n" + s.channel +
          "[fluid]\nviscosity = \"1.2 mPa.s\"\n[numerics]\n" +
@@ -122,6 +141,10 @@ const std::vector<Study> studies = {
      "[magnetic]\nfield = \"coil\"\nposition = [\"4 um\", \"4 um\", \"-1 mm\"]\ndiameter = \"4 "
      "mm\"\n"
      "current = \"200 A\"\n"},
+    {"CoilPair", plates, particles, "",
+     "[magnetic]\nfield = \"coil\"\nposition = [\"4 um\", \"4 um\", \"4 um\"]\ndiameter = \"4 "
+     "mm\"\n"
+     "current = \"200 A\"\npair = \"opposite\"\ndistance = \"3 mm\"\n"},
     {"Block", plates, particles, "",
      "[magnetic]\nfield = \"magnet\"\nshape = \"block\"\nposition = [\"4 um\", \"4 um\", \"-3 "
      "mm\"]\n"
@@ -132,6 +155,18 @@ const std::vector<Study> studies = {
     {"Table", plates, particles, "", "[magnetic]\nfield = \"table\"\nfile = \"B.csv\"\n"},
     {"Quadrupole", plates, particles, "",
      "[magnetic]\nfield = \"quadrupole\"\ngradient = \"4000 T/m\"\n"},
+    {"Sources", plates, particles, "",
+     "[magnetic]\n[[magnetic.source]]\nfield = \"uniform\"\nB0 = \"0.02 T\"\n"
+     "[[magnetic.source]]\nfield = \"rotating\"\nB0 = \"5 mT\"\nfrequency = \"500 Hz\"\n"},
+    {"Saturating", plates, saturating, "", gradient},
+    {"OneWay", plates, one_way, "", gradient},
+    {"PaperRepulsion", plates, std::string(particles) + "[contact]\nrepulsion = \"paper\"\n", "",
+     gradient},
+    {"Peskin4", plates, std::string(cells) + particles, "kernel = \"peskin4\"\n", gradient},
+    {"Roma3", plates, std::string(cells) + particles, "kernel = \"roma3\"\n", gradient},
+    {"Linear2", plates, particles, "kernel = \"linear2\"\n", gradient},
+    {"SymmetricPlates", symmetric, std::string(cells) + particles, "", gradient},
+    {"PlatesAndMeanVelocity", driven, std::string(cells) + particles, "", gradient},
     {"PlateletAndWhite", plates,
      "[[cell]]\nkind = \"platelet\"\ncount = 2\n[[cell]]\nkind = \"white\"\ndiameter = \"5 "
      "um\"\ncount = 1\n"},

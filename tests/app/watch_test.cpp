@@ -100,6 +100,28 @@ TEST(Watch, EndsARunWhoseCarrierPassesAPlate) {
   expect_words(said, {"fix hemo/watch: step", "rank 1: carrier 2 at 3", "is beyond a plate"});
 }
 
+TEST(Watch, EndsARunWhoseCarrierJumpsAlongAPeriodicAxis) {
+  const auto said = inspected({"create_atoms 1 single 3 3 3", "create_atoms 1 single 3 9 9",
+                               "pair_style zero 1", "pair_coeff * *", "group high id 2",
+                               "fix drag all hemo/drag radius 1 0.25 feedback no",
+                               "fix pull high addforce 0 9 0"});
+  expect_words(said, {"fix hemo/watch: step 1, rank", "carrier 2 at 3", "nodes in a step",
+                      "the limit is 0.5"});
+}
+
+TEST(Watch, KeepsItsReasonWhenTheInspectionCannotBeWritten) {
+  const auto said =
+      outcome({"create_atoms 1 single 3 3 3", "create_atoms 1 single 3 9 10", "pair_style zero 1",
+               "pair_coeff * *", "group high id 2", "fix drag all hemo/drag radius 1 0.25",
+               "fix pull high addforce 0 0 0.2",
+               "fix fluid all hemo/fluid tau 1 plates z lower 0 0 0 upper "
+               "0 0 0",
+               "fix watch all hemo/watch 1000 carriers all inspection /dev/null/there 0.5 1e-8",
+               "run 2000"});
+  expect_words(said, {"hemomag: the run broke off: ERROR: fix hemo/watch: step",
+                      "is beyond a plate", "hemomag: its state could not be kept", "/dev/null"});
+}
+
 TEST(Watch, PassesASoundRun) {
   EXPECT_EQ(outcome({"create_atoms 1 single 3 3 3", "pair_style zero 1", "pair_coeff * *",
                      "fix drag all hemo/drag radius 1 0.25",
