@@ -10,6 +10,7 @@
 #include "app/bench.hpp"
 #include "app/profiles.hpp"
 #include "app/validation.hpp"
+#include "base/simd.hpp"
 #include "case/break_off.hpp"
 #include "case/card.hpp"
 #include "case/case_file.hpp"
@@ -39,6 +40,17 @@ int with_case(const std::string& path, const std::vector<std::string>& overrides
   } catch (const hemomag::Error& e) {
     if (rank() == 0) std::fprintf(stderr, "%s\n", e.what());
     return 2;
+  }
+}
+
+/// HEMOMAG_SIMD, before anything needs it.
+bool environment_is_good() {
+  try {
+    hemomag::simd_level();
+    return true;
+  } catch (const hemomag::Error& e) {
+    if (rank() == 0) std::fprintf(stderr, "%s\n", e.what());
+    return false;
   }
 }
 
@@ -146,8 +158,9 @@ int main(int argc, char** argv) {
   int code = 0;
   try {
     // LAMMPS has options of its own: they go through untouched.
-    code = argc > 1 && std::string(argv[1]) == "lmp" ? lmp({argv + 2, argv + argc})
-                                                     : parse_and_run(argc, argv);
+    code = !environment_is_good()                      ? 2
+           : argc > 1 && std::string(argv[1]) == "lmp" ? lmp({argv + 2, argv + argc})
+                                                       : parse_and_run(argc, argv);
   } catch (const std::exception& e) {
     // What no subcommand foresaw, no memory left for one. Others may wait for this rank: all end.
     std::fprintf(stderr, "hemomag: %s\n", e.what());

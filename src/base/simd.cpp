@@ -4,6 +4,8 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "base/error.hpp"
+
 namespace hemomag {
 
 SimdLevel simd_level() {
@@ -14,10 +16,11 @@ SimdLevel simd_level() {
         __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw"))
       widest = SimdLevel::avx512;
     const char* asked = std::getenv("HEMOMAG_SIMD");
-    if (asked)
-      for (auto candidate : {SimdLevel::sse2, SimdLevel::avx2, SimdLevel::avx512})
-        if (std::string_view(asked) == name(candidate)) return std::min(candidate, widest);
-    return widest;
+    if (!asked) return widest;
+    for (auto candidate : {SimdLevel::sse2, SimdLevel::avx2, SimdLevel::avx512})
+      if (std::string_view(asked) == name(candidate)) return std::min(candidate, widest);
+    throw Error("HEMOMAG_SIMD=" + std::string(asked) +
+                ": is unknown; accepted: sse2, avx2, avx512");
   }();
   return level;
 }

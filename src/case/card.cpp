@@ -30,6 +30,8 @@ namespace {
 /// Share of the largest gradient from which div B or curl B is noted: a smooth table has less.
 constexpr double noted_violation = 0.01;
 
+constexpr double densest = 0.6;  // hematocrit
+
 /// Small is fine, then doubtful, then refused.
 Verdict below(double value, double fine, double refused) {
   return value <= fine ? Verdict::fine : value <= refused ? Verdict::doubtful : Verdict::refused;
@@ -145,8 +147,15 @@ private:
     const char* kind = cell.kind == CellKind::platelet ? " platelets"
                        : cell.kind == CellKind::white  ? " white cells"
                                                        : "";
-    add("cells", text("%d%s of %d vertices, hematocrit %.4g", count, kind, cell.vertices,
-                      count * model.volume / fluid_volume(c_)));
+    const double hematocrit = count * model.volume / fluid_volume(c_);
+    const bool rounded_away = count == 0 && !cell.count;
+    const double one = model.volume / fluid_volume(c_);  // to which a hematocrit is rounded
+    const bool too_dense = hematocrit > densest + one / 2 && fits_into_box(model);
+    add("cells",
+        text("%d%s of %d vertices, hematocrit %.4g", count, kind, cell.vertices, hematocrit),
+        rounded_away || too_dense ? Verdict::refused : Verdict::fine,
+        rounded_away ? text("a hematocrit from %.3g, which is one cell, or count = 0", one)
+                     : text("a hematocrit up to %g", densest));
     size_of_cell(model);
     if (cell.surface) mesh_quality(model);
     if (cell.stress_free == StressFree::sphere) prestress(cell, model);
@@ -167,12 +176,16 @@ private:
                                                     model.radius / cell.shear_modulus));
   }
 
+  double widest() const {
+    return std::max({c_.channel.size[0], c_.channel.size[1], c_.channel.size[2]});
+  }
+  bool fits_into_box(const CellModel& model) const { return 2 * model.reach < widest(); }
+
   /// A unit that was mistaken shows here.
   void size_of_cell(const CellModel& model) {
-    const double widest = std::max({c_.channel.size[0], c_.channel.size[1], c_.channel.size[2]});
-    if (2 * model.reach < widest) return;
+    if (fits_into_box(model)) return;
     add("cell size", text("%.4g um", 2e6 * model.reach), Verdict::refused,
-        text("less than the box, %.4g um; see cell.diameter or cell.mesh_unit", widest * 1e6));
+        text("less than the box, %.4g um; see cell.diameter or cell.mesh_unit", widest() * 1e6));
   }
 
   /// Of a user's surface; the generator's own meshes are within the gates.
@@ -252,14 +265,17 @@ private:
     if (c_.magnetic.sources.empty()) return;
     survey_.emplace(c_);
     double gradient = 0, div = 0, rot = 0;
+    bool finite = true;
     survey_->for_each([&](const magnetic::FieldAt& at) {
+      finite = finite && std::isfinite(norm(at.B) + magnetic::gradient_norm(at));
       strongest_ = std::max(strongest_, norm(at.B) * units_.magnetic_field());
       gradient = std::max(gradient, magnetic::gradient_norm(at));
       div = std::max(div, std::fabs(magnetic::divergence(at)));
       rot = std::max(rot, norm(magnetic::curl(at)));
     });
     const double T_m = units_.magnetic_field() / units_.dx;
-    add("largest field", text("%.4g T", strongest_));
+    add("largest field", finite ? text("%.4g T", strongest_) : "not finite",
+        finite ? Verdict::fine : Verdict::refused, "sources nearer, smaller or weaker than these");
     add("largest field gradient", text("%.4g T/m", gradient * T_m));
     const auto violated = [&](const char* name, double value) {
       if (value > noted_violation * gradient)
@@ -268,6 +284,18 @@ private:
     };
     violated("div B", div);
     violated("curl B", rot);
+    for (const MagneticSource& s : c_.magnetic.sources)
+      if (s.frequency > 0) frequency(s);
+  }
+
+  void frequency(const MagneticSource& s) {
+    key_ = s.key;
+    const double steps = 1 / (s.frequency * units_.dt);
+    add("steps a turn", text("%.4g", steps),
+        steps >= 20   ? Verdict::fine
+        : steps >= 10 ? Verdict::doubtful
+                      : Verdict::refused,
+        "at least 10, better 20: a lower frequency or dt");
   }
 
   /// The field of the paper grows along one axis, and the distance from its zero with exp(t/T_e).

@@ -1,6 +1,7 @@
 #include "case/case_file.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -20,13 +21,18 @@ namespace {
 
 constexpr double default_profiles = 5e-3;  // s, between plates
 constexpr double most_nodes = 2e9;
+constexpr std::uintmax_t largest_case = 10'000'000;  // bytes
 constexpr const char* whole_surface = "a whole STL, OFF or PLY file of a closed surface";
 
 std::string read_text(const std::string& path) {
-  std::ifstream file(path);
+  const bool readable = io::is_readable(path);
+  if (readable && std::filesystem::file_size(path) > largest_case)
+    throw CaseError(path + ":1:1: file: has more than 10 MB; a TOML file is expected");
+  std::ifstream file;
+  if (readable) file.open(path);
   std::stringstream text;
   text << file.rdbuf();
-  if (!io::is_readable(path) || file.bad())
+  if (!readable || file.bad())
     throw CaseError(path + ":1:1: file: cannot be read; a readable TOML file is expected");
   return text.str();
 }
@@ -73,6 +79,12 @@ toml::table& descend(Source& source, const std::vector<std::string>& parts,
 }
 
 void apply_override(Source& source, const std::string& override_text) {
+  const auto control = [](unsigned char c) { return std::iscntrl(c) != 0 && c != '\t'; };
+  const auto odd = std::find_if(override_text.begin(), override_text.end(), control);
+  if (odd != override_text.end())
+    throw CaseError("--set " + std::string(override_text.begin(), odd) +
+                    ": has a line break or another control character; accepted: key.path=value, "
+                    "one for each --set");
   const auto equals = override_text.find('=');
   if (equals == std::string::npos || equals == 0)
     throw CaseError("--set " + override_text + ": has no value; accepted: key.path=value");
@@ -80,6 +92,7 @@ void apply_override(Source& source, const std::string& override_text) {
   std::vector<std::string> parts;
   std::stringstream path(key);
   for (std::string part; std::getline(path, part, '.');) parts.push_back(part);
+  if (key.back() == '.') throw CaseError("--set " + key + ": is not a key; accepted: table.key");
   toml::table& table = descend(source, parts, key);
   // A TOML value, or else a plain string: --set magnetic.B0=0.05 T
   try {
@@ -165,13 +178,24 @@ void check_size(const Case& c, const Table& channel) {
   channel.fail("size", text);
 }
 
+/// Beyond these, numbers of other units leave what doubles hold.
+void check_time_step(const Case& c, const Table& t) {
+  constexpr double shortest = 1e-15, longest = 1;
+  const double dt = lattice_units(c).dt;
+  if (dt >= shortest && dt <= longest) return;
+  char text[120];
+  std::snprintf(text, sizeof text, "gives steps of %.3g s; accepted: from %g s to %g s", dt,
+                shortest, longest);
+  t.fail(t.has("dt") ? "dt" : "cell_reynolds", text);
+}
+
 /// tau and dx leave one freedom: the time step, by one of three keys.
 void read_time_step(Case& c, const Table& t) {
   auto& n = c.numerics;
   if (t.has("dt") && t.has("cell_reynolds"))
     t.fail("dt", "excludes cell_reynolds; accepted: one of the two");
   n.dt = t.optional_quantity("dt");
-  if (n.dt || t.is_word("cell_reynolds", "true")) return;
+  if (n.dt || t.is_word("cell_reynolds", "true")) return check_time_step(c, t);
   if (nominal_shear_rate(c) > 0)
     n.cell_reynolds = t.number("cell_reynolds");
   else if (t.has("cell_reynolds"))
@@ -181,6 +205,7 @@ void read_time_step(Case& c, const Table& t) {
   else
     t.missing("dt", "is missing; without channel.shear_rate or channel.mean_velocity a time step "
                     "is required, e.g. \"6.81 us\"");
+  check_time_step(c, t);
 }
 
 void read_numerics(Case& c, const Table& t) {
@@ -366,6 +391,23 @@ Carrier read_carrier(const Table& t, double fluid_density) {
   return carrier;
 }
 
+/// A unit that was mistaken shows here, before neighbour lists of all with all are made.
+void check_ranges(const Case& c, const Table& t) {
+  const auto& size = c.channel.size;
+  const double longest = std::min({size[0], size[1], size[2]}) / 2;
+  for (const char* key :
+       {"morse_r0", "morse_cutoff", "cell_sigma", "carrier_sigma", "surface_range", "plate_sigma"})
+    if (t.has(key) && t.quantity(key) > longest) {
+      char text[120];
+      std::snprintf(text, sizeof text, "reaches across the channel; accepted: at most %.4g um here",
+                    longest * 1e6);
+      t.fail(key, text);
+    }
+  if (c.contact.morse_depth > 0 && c.contact.morse_cutoff <= c.contact.morse_r0)
+    t.fail("morse_cutoff", "does not reach the well's minimum; accepted: above morse_r0, or "
+                           "morse_depth = 0");
+}
+
 void read_contact(Case& c, const Table& t) {
   c.contact.morse_depth = t.number("morse_depth");
   c.contact.morse_beta = t.quantity("morse_beta");
@@ -392,6 +434,7 @@ void read_contact(Case& c, const Table& t) {
     t.fail("repulsion_kappa", "is of the soft repulsion; accepted: repulsion = \"soft\", or leave "
                               "it out");
   c.contact.repulsion_kappa = t.number("repulsion_kappa");
+  check_ranges(c, t);
 }
 
 void read_analysis(Case& c, const Table& t) {
@@ -416,6 +459,10 @@ void read_analysis(Case& c, const Table& t) {
     t.refuse_if_given("walls", "is for plates; accepted in a tube or voxels: \"vessel\"");
   if (!in_vessel(c) && walls == "vessel")
     t.fail("walls", "needs a tube or voxels; accepted: \"lower\", \"both\"");
+  if (analysis.walls == LayerWalls::both && !analysis.measured &&
+      2 * analysis.layer >= c.channel.size[2])
+    t.fail("layer", "at both plates leaves nothing between; accepted: less than half the height, "
+                    "or walls = \"lower\"");
 }
 
 void check_steps(const Case& c, const Table& run) {
@@ -440,6 +487,8 @@ void read_run(Case& c, const Table& run, const Table& analysis) {
     c.run.checkpoint.reset();
   else
     c.run.checkpoint = run.quantity("checkpoint");
+  if (c.analysis.measured && c.analysis.layer_run / lattice_units(c).dt > most_steps)
+    analysis.fail("layer_run", "makes more than 2147483647 steps; accepted: a shorter time");
   c.analysis.average_from = analysis.quantity("average_from");
   const double duration =
       c.run.time ? *c.run.time : static_cast<double>(*c.run.steps) * lattice_units(c).dt;
@@ -475,7 +524,18 @@ void note_positions(Case& c, const Source& source, const toml::node& node,
       note_positions(c, source, *list->get(k), entry_path(path.c_str(), k, list->size()));
 }
 
+/// Entries that are all of count 0 are as if they were not there.
+template <class Entry>
+bool drop_if_none(std::vector<Entry>& entries, Source& source, const char* name) {
+  const auto none = [](const Entry& e) { return e.count == 0; };
+  if (entries.empty() || !std::all_of(entries.begin(), entries.end(), none)) return false;
+  entries.clear();
+  source.root.erase(name);
+  return true;
+}
+
 /// The case as run: overrides applied, and surfaces where the run directory keeps its copies.
+/// @param text  of the file, or nothing when it no longer says what is run
 std::string effective_text(Source& source, const Case& c, const std::string& text) {
   bool copies = false;
   if (const std::string copy = geometry_copy(c); !copy.empty()) {
@@ -494,7 +554,7 @@ std::string effective_text(Source& source, const Case& c, const std::string& tex
                                                           toml::table{{"file", packed_copy}});
       copies = true;
     }
-  if (!copies && source.overridden.empty()) return text;
+  if (!copies && source.overridden.empty() && !text.empty()) return text;
   std::stringstream out;
   out << source.root << "\n";
   return out.str();
@@ -523,7 +583,8 @@ Case read_case(const std::string& path, const std::vector<std::string>& override
   const Table top(source, &source.root, "", "");
   c.title = top.word("title");
   if (c.title.size() > 200 || c.title.find('\n') != std::string::npos)
-    top.fail("title", "is too long; accepted: one line of at most 200 characters");
+    top.fail("title", "is too long or of several lines; accepted: one line of at most 200 "
+                      "characters");
   c.seed = static_cast<std::uint64_t>(top.number("seed"));
   const Table channel = section(source, "channel");
   read_channel(c, channel);
@@ -545,6 +606,8 @@ Case read_case(const std::string& path, const std::vector<std::string>& override
     if (c.carriers.back().feedback != c.carriers.front().feedback)
       t.fail("feedback", "differs from another [[carrier]]; accepted: the same for all");
   }
+  const bool dropped =
+      drop_if_none(c.cells, source, "cell") | drop_if_none(c.carriers, source, "carrier");
   read_contact(c, section(source, "contact"));
   read_magnetic(c, source);
   const Table analysis = section(source, "analysis");
@@ -553,7 +616,7 @@ Case read_case(const std::string& path, const std::vector<std::string>& override
   read_output(c, section(source, "output"));
   c.file = path;
   note_positions(c, source, source.root, "");
-  c.text = effective_text(source, c, text);
+  c.text = effective_text(source, c, dropped ? "" : text);
   return c;
 }
 

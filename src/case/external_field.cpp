@@ -180,9 +180,7 @@ magnetic::Field external_field(const Case& c) {
   return field;
 }
 
-std::string table_copy(const MagneticSource& s) {
-  return s.key + std::filesystem::path(s.file).extension().string();
-}
+std::string table_copy(const MagneticSource& s) { return s.key + ".csv"; }
 
 magnetic::Magnetisation magnetisation(const Case& c, const Carrier& carrier) {
   const LatticeUnits units = lattice_units(c);

@@ -17,11 +17,23 @@
 namespace hemomag::case_ {
 namespace {
 
-constexpr double cell_gap = 0.40e-6;  // between vertices of different cells [m]
-constexpr double plate_gap = 0.3e-6;  // cells from the plates
-constexpr double carrier_plate_gap = 0.25e-6;
-constexpr double carrier_cell_gap = 0.56e-6;  // the reach of the cell-carrier repulsion
-constexpr long most_tries = 1'000'000;
+/// Distances to begin with [m]: at least these, and beyond the reach of the case's repulsions.
+struct Gaps {
+  double cells = 0.40e-6;  ///< between vertices of different cells
+  double cell_plate = 0.3e-6, carrier_plate = 0.25e-6, carrier_cell = 0.56e-6;
+  Gaps() = default;
+  explicit Gaps(const Contact& contact) {
+    constexpr double reach = 1.12;  // 2^(1/6): of a Lennard-Jones repulsion over its sigma
+    cells = std::max(cells, reach * contact.cell_sigma.value_or(0));
+    cell_plate = std::max(cell_plate, reach * contact.plate_sigma);
+    carrier_plate = std::max(carrier_plate, contact.plate_sigma);
+    carrier_cell = std::max(carrier_cell, contact.carrier_contact == CarrierContact::surface
+                                              ? contact.surface_range
+                                              : reach * contact.carrier_sigma);
+  }
+};
+
+constexpr long most_tries = 1'000'000;  // of cells in all, of carriers in a row
 
 class Random {
 public:
@@ -71,7 +83,8 @@ private:
 class Bins {
 public:
   Bins(const Box& box, double reach) : box_(box), reach2_(reach * reach) {
-    for (std::size_t d = 0; d < 3; ++d) n_[d] = std::max(1, static_cast<int>(box.size[d] / reach));
+    for (std::size_t d = 0; d < 3; ++d)
+      n_[d] = static_cast<int>(std::clamp(box.size[d] / reach, 1.0, most));
     bins_.resize(static_cast<std::size_t>(n_[0]) * static_cast<std::size_t>(n_[1]) *
                  static_cast<std::size_t>(n_[2]));
   }
@@ -87,6 +100,7 @@ public:
   }
 
 private:
+  static constexpr double most = 160;  // along an axis: 100 MB
   int index(const Vec3& x, std::size_t d) const {
     return static_cast<int>(std::floor(x[d] / box_.size[d] * n_[d]));
   }
@@ -157,13 +171,15 @@ private:
 /// Everything placed so far. Models are referred to, not copied.
 class Packing {
 public:
-  explicit Packing(const Case& c)
-      : box_(c), vertices_(box_, cell_gap), carriers_near_(box_, carrier_cell_gap) {}
+  Packing(const Case& c, const Gaps& apart)
+      : gaps(apart), box_(c), vertices_(box_, gaps.cells), carriers_near_(box_, gaps.carrier_cell) {
+  }
+  const Gaps gaps;
 
   bool fits(const CellModel& model, const Pose& pose) const {
     for (const Vec3& p : model.mesh.x) {
       const Vec3 x = pose.place(p);
-      if (!box_.off_walls(x, plate_gap) || vertices_.any_near(x)) return false;
+      if (!box_.off_walls(x, gaps.cell_plate) || vertices_.any_near(x)) return false;
       if (inside_any(x)) return false;
     }
     for (const auto& e : model.topology.edges)
@@ -194,7 +210,7 @@ public:
   }
 
   bool carrier_fits(const Vec3& x) const {
-    return box_.off_walls(x, carrier_plate_gap) && !carriers_near_.any_near(x) && !inside_any(x);
+    return box_.off_walls(x, gaps.carrier_plate) && !carriers_near_.any_near(x) && !inside_any(x);
   }
 
   const Box& box() const { return box_; }
@@ -244,8 +260,9 @@ void place_on_grid(System& system, Packing& packing, const Case& c, std::size_t 
   for (const Vec3& p : x)
     rim = std::max(rim, std::hypot(p.x, p.y)), top = std::max(top, std::fabs(p.z));
   const auto& box = packing.box();
-  const double side = 2 * rim + 1.05 * cell_gap, height = 2 * top + 1.05 * cell_gap;
-  const double margin = box.periodic[2] ? 0 : plate_gap - cell_gap / 2;
+  const double side = 2 * rim + 1.05 * packing.gaps.cells,
+               height = 2 * top + 1.05 * packing.gaps.cells;
+  const double margin = box.periodic[2] ? 0 : packing.gaps.cell_plate - packing.gaps.cells / 2;
   const int nx = static_cast<int>(box.size[0] / side), ny = static_cast<int>(box.size[1] / side),
             nz = static_cast<int>((box.size[2] - 2 * margin) / height);
   const auto no_room = [&](long room) {
@@ -290,7 +307,7 @@ void place_carriers(System& system, const Packing& packing, const Case& c, std::
                   " carriers found a place outside the cells; accepted: fewer");
     Vec3 x;
     for (std::size_t d = 0; d < 3; ++d) {
-      const double gap = d == 2 && !box.periodic[2] ? carrier_plate_gap : 0;
+      const double gap = d == 2 && !box.periodic[2] ? packing.gaps.carrier_plate : 0;
       x[d] = random.uniform(gap, box.size[d] - gap);
     }
     const Vec3 step = worm ? 2 * carrier.radius * random.direction() : Vec3{};
@@ -304,6 +321,7 @@ void place_carriers(System& system, const Packing& packing, const Case& c, std::
     for (const Vec3& p : chain) others.add(p);
     system.carriers.push_back({entry, std::move(chain)});
     ++placed;
+    tries = -1;  // in a row
   }
 }
 
@@ -341,7 +359,7 @@ int cell_count(const Case& c, const Cell& cell, const CellModel& model) {
 std::vector<System::PlacedCell> scatter_cells(const Case& c, const std::vector<CellModel>& models,
                                               const std::vector<int>& counts) {
   System system{models, {}, {}, {}};
-  Packing packing(c);
+  Packing packing(c, Gaps());  // packing itself drives them apart
   Random random(c.seed);
   for (const std::size_t m : largest_first(models))
     place_at_random(system, packing, c, m, counts[m], random);
@@ -351,7 +369,7 @@ std::vector<System::PlacedCell> scatter_cells(const Case& c, const std::vector<C
 System place(const Case& c) {
   System system;
   system.models = cell_models(c);
-  Packing packing(c);
+  Packing packing(c, Gaps(c.contact));
   Random random(c.seed);
   if (is_packed(c)) {
     if (c.cells[0].placement == Placement::file) {

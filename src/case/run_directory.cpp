@@ -34,6 +34,14 @@ bool would_be_lost(const std::string& path, const std::string& copy, const fs::p
   return end == directory.end() && file != directory / copy;
 }
 
+/// A directory is made with those above it, of which the last that is there must be one.
+void require_parent(const std::string& out, const std::string& head) {
+  fs::path above = fs::absolute(out).parent_path();
+  while (!fs::exists(above)) above = above.parent_path();
+  if (!fs::is_directory(above))
+    throw Error(head + above.string() + " is no directory; accepted: a directory that can be made");
+}
+
 }  // namespace
 
 std::vector<CaseFile> files_of(const Case& c) {
@@ -64,9 +72,13 @@ void add_copies(const Case& c, Files& files) {
 
 void require_free(const Case& c, const RunOptions& options) {
   const std::string& out = options.out;
-  if (!fs::exists(out)) return;
-  if (!options.force) exists_already(out);
   const std::string head = "hemomag: --out " + out + ": ";
+  std::error_code trouble;
+  const auto found = fs::status(out, trouble);
+  if (found.type() == fs::file_type::none)
+    throw Error(head + trouble.message() + "; accepted: a directory that can be made");
+  if (!fs::exists(found)) return require_parent(out, head);
+  if (!options.force) exists_already(out);
   if (!fs::is_directory(out)) throw Error(head + "is no directory" + accepted_by_force);
   const fs::path directory = fs::canonical(out);
   const bool ours = RunLock::was_here(out) || fs::exists(directory / packing_report);

@@ -40,7 +40,10 @@ public:
   std::string write(const std::optional<Saving>& saving) {
     const std::string resume = saving ? saving->resume : "";
     const char* z = c_.channel.boundary == Boundary::plates ? "f" : "p";
-    line("# %s", c_.title.c_str());
+    std::string title = c_.title;  // LAMMPS reads on after these two
+    std::replace(title.begin(), title.end(), '"', '\'');
+    std::replace(title.begin(), title.end(), '&', '+');
+    line("# %s", title.c_str());
     line("# lattice units: dx = %.9g m, dt = %.9g s, density = %.9g kg/m3", units_.dx, units_.dt,
          units_.density);
     line("units lj\natom_style molecular\nnewton on\nboundary p p %s\nspecial_bonds lj/coul 1 1 1",

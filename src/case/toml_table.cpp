@@ -1,6 +1,7 @@
 #include "case/toml_table.hpp"
 
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 #include "case/case_file.hpp"
@@ -21,6 +22,16 @@ void Source::fail(const toml::node& node, const std::string& key,
                     problem);
   throw CaseError(place(node) + ": " + key + ": " + problem);
 }
+
+namespace {
+
+/// toml++ has no double of a whole number beyond 2^53.
+double as_double(const toml::node& number) {
+  const auto whole = number.value_exact<std::int64_t>();
+  return whole ? static_cast<double>(*whole) : *number.value<double>();
+}
+
+}  // namespace
 
 const char* type_name(const toml::node& node) {
   switch (node.type()) {
@@ -74,7 +85,7 @@ double Table::number(const char* name) const {
   if (!has(name)) return std::stod(key.fallback);
   const auto& n = node(name);
   if (!n.is_number() || (key.kind == Kind::integer && !n.is_integer())) wrong_type(name, key);
-  return in_range(name, key, *n.value<double>());
+  return in_range(name, key, as_double(n));
 }
 
 double Table::quantity(const char* name) const {
@@ -111,7 +122,7 @@ std::optional<Vec3> Table::direction(const char* name) const {
   if (!list || list->size() != 3) wrong_type(name, key);
   for (std::size_t d = 0; d < 3; ++d) {
     if (!list->get(d)->is_number()) wrong_type(name, key);
-    v[d] = *list->get(d)->value<double>();
+    v[d] = as_double(*list->get(d));
   }
   if (!(norm(v) > 0) || !std::isfinite(norm(v)))
     fail(name, "has no direction; accepted: " + accepted(key));

@@ -47,9 +47,11 @@ bool plain_unit(std::string_view unit) {
   if (unit.empty() ||
       !(std::isalpha(static_cast<unsigned char>(unit.front())) || (unit.front() & 0x80)))
     return false;
+  std::string lower(unit);  // UDUNITS takes words in capitals as well
+  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   for (const char* word : {"since", "after", "from", "ref", "rpm", "rad", "deg", "turn", "rev",
                            "arc", "cycle", "lg", "ln", "lb"})
-    if (unit.find(word) != std::string_view::npos) return false;
+    if (lower.find(word) != std::string::npos) return false;
   char before = ' ';
   for (const char c : unit) {
     const auto u = static_cast<unsigned char>(c);

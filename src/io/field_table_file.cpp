@@ -45,6 +45,7 @@ Row read_row(const InputFile& file, std::string_view line) {
 }
 
 std::vector<Row> read_rows(InputFile& file) {
+  file.skip_byte_order_mark();
   std::string names;
   for (const char c : file.line('#', "its header"))
     if (!std::isspace(static_cast<unsigned char>(c))) names += c;

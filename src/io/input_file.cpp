@@ -73,6 +73,10 @@ void InputFile::fail(const std::string& what) const {
   throw Error(path_ + ": line " + std::to_string(line_number(left())) + ": " + what);
 }
 
+void InputFile::skip_byte_order_mark() {
+  if (at_ == 0 && bytes_.starts_with("\xEF\xBB\xBF")) at_ = 3;
+}
+
 std::size_t InputFile::line_number(std::size_t left) const {
   const auto end = bytes_.end() - static_cast<std::ptrdiff_t>(left);
   const auto ends = static_cast<std::size_t>(std::count(bytes_.begin(), end, '\n'));

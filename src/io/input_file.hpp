@@ -49,6 +49,8 @@ public:
   /// Takes the next word, which must be `wanted`, in capitals or not.
   void expect(const char* wanted);
   void skip_blanks();
+  /// Spreadsheets begin a text with one.
+  void skip_byte_order_mark();
   void skip(std::size_t n, const char* what) { at_ = end_of(n, what); }
 
   /// The next bytes as a number.

@@ -208,7 +208,8 @@ void FixHemoWatch::check_plates() {
       const double* x = atom->x[i];
       if (x[d] > low && x[d] < high) continue;
       note(name_of(i) + " at " + three(x) +
-           " is beyond a plate, or not finite (forces too strong for the time step)");
+           " is beyond a plate, or not finite (forces too strong for the time step: a smaller one, "
+           "numerics.dt or cell_reynolds, may help)");
       return;
     }
   }
@@ -232,7 +233,9 @@ std::string FixHemoWatch::too_fast(int i) const {
   const double* v = atom->v[i];
   return name_of(i) + " at " + three(atom->x[i]) + " moves " +
          std::to_string(std::hypot(v[0], v[1], v[2])) + " nodes in a step, the limit is " +
-         std::to_string(displacement_limit_) + " (forces too strong for the time step)";
+         std::to_string(displacement_limit_) +
+         " (forces too strong for the time step: a smaller one, numerics.dt or cell_reynolds, may "
+         "help)";
 }
 
 void FixHemoWatch::check_accidents() {

@@ -11,6 +11,10 @@ volatile std::sig_atomic_t came[3];
 struct sigaction before[3];
 
 extern "C" void note_signal(int signal) {
+  if (signal == SIGINT && came[1]) {  // somebody who does not want to wait
+    std::signal(SIGINT, SIG_DFL);
+    raise(SIGINT);
+  }
   for (std::size_t k = 0; k < 3; ++k)
     if (numbers[k] == signal) came[k] = 1;
 }

@@ -2,8 +2,8 @@
 
 namespace hemomag::lammps {
 
-/// While one exists, SIGTERM, SIGINT and SIGUSR1 are noted and not obeyed; after it they do what
-/// they did before.
+/// While one exists, SIGTERM, SIGINT and SIGUSR1 are noted and not obeyed, but for a second SIGINT;
+/// after it they do what they did before.
 class SignalsNoted {
 public:
   SignalsNoted();

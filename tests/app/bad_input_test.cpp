@@ -120,6 +120,14 @@ protected:
     return outcome.error;
   }
 
+  /// What has no place in a case is refused with a line as well, and nothing is written.
+  void expect_one_line(const Outcome& outcome, const std::string& says) {
+    EXPECT_EQ(outcome.code, 2) << outcome.error;
+    EXPECT_NE(outcome.error.find(says), std::string::npos) << outcome.error;
+    EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1) << outcome.error;
+    EXPECT_FALSE(std::filesystem::exists(directory_ / "result"));
+  }
+
   /// @param input  what was refused, beside the files of the directory
   void expect_refusal(const Outcome& outcome, const std::string& says, std::string input) {
     EXPECT_EQ(outcome.code, 2) << outcome.error;
@@ -286,8 +294,8 @@ TEST_F(BadInput, Tubes) {
           "--set magnetic.field=gradient");
   refused(with(""), "--set channel.size:", "whole multiple of dx",
           "--set 'channel.size=[\"8 um\", \"8.2 um\", \"8 um\"]'");
-  refused(with("[[cell]]\nvertices = 642\ncount = 2\nplacement = \"grid\"\n"),
-          "case.toml:10:13: cell.placement:", "of 2 cells");
+  refused(with("[[cell]]\nvertices = 642\ncount = 1\nplacement = \"grid\"\n"),
+          "case.toml:10:13: cell.placement:", "of 1 cells");
 }
 
 TEST_F(BadInput, KeysOfVesselsElsewhere) {
@@ -473,6 +481,88 @@ const std::string rod = "field = \"magnet\"\nposition = [\"4 um\", \"4 um\", \"-
 const std::string coil = "field = \"coil\"\nposition = [\"4 um\", \"4 um\", \"-1 mm\"]\n"
                          "current = \"1 A\"\ndiameter = \"1 mm\"\n";
 
+TEST_F(BadInput, UnitsAndOverridesInDisguise) {
+  refused(changed("\"125 nm\"", "\"125 nm FROM2\""),
+          "case.toml:11:10: carrier.radius:", "is not a unit");
+  refused(good, "--set run.steps.:", "is not a key", "--set 'run.steps.=20'");
+  refused(good, "--set seed=3:", "has a line break", "--set 'seed=3\nrun.steps=4'");
+  refused(changed("title = \"case\"", "seed = 9007199254740993\ntitle = \"case\""),
+          "case.toml:1:8: seed:", "out of range");
+  refused(changed("\"case\"", "\"two\\nlines\""), "case.toml:1:9: title:", "of several lines");
+}
+
+TEST_F(BadInput, LengthsMistakenInTheirUnit) {
+  for (const char* key : {"carrier_sigma", "morse_cutoff", "cell_sigma", "plate_sigma"})
+    refused(good + "[contact]\n" + key + " = \"1 mm\"\n",
+            "case.toml:17:", std::string("contact.") + key + ": reaches across the channel");
+  refused(good + "[contact]\nmorse_cutoff = \"0.4 um\"\n",
+          "case.toml:17:16: contact.morse_cutoff:", "the well's minimum");
+  refused(good + "[analysis]\nwalls = \"both\"\nlayer = \"4 um\"\n",
+          "case.toml:18:9: analysis.layer:", "leaves nothing between");
+}
+
+TEST_F(BadInput, StepsThatNoNumberHolds) {
+  refused(good, "--set numerics.cell_reynolds:", "gives steps of",
+          "--set numerics.cell_reynolds=1e300");
+  refused(good, "--set numerics.dt:", "gives steps of", "--set 'numerics.dt=1e-300 s'");
+  refused(field_with("field = \"uniform\"\ntime = \"sine\"\nfrequency = \"100 kHz\"\n"),
+          "case.toml:", "steps a turn", "");
+  refused(field_with(coil), "case.toml:12:1: magnetic:", "not finite",
+          "--set 'magnetic.current=1e300 A' --set magnetic.turns=1000000");
+}
+
+TEST_F(BadInput, CellsThatAreNoneOrTooMany) {
+  const std::string one = "[[cell]]\nvertices = 642\n";
+  refused(good + one + "hematocrit = 1e-9\n", "case.toml:16:", "a hematocrit from");
+  refused(good + one + "count = 10000000\n", "case.toml:16:", "a hematocrit up to 0.6");
+  refused(good + one + "count = 1\nstretch_ratio = 0.001\n",
+          "case.toml:19:17: cell.stretch_ratio:", "out of range");
+}
+
+TEST_F(BadInput, NoneOfACount) {
+  for (const std::string& none :
+       {good + "[[cell]]\ncount = 0\n", changed("count = 3", "count = 0"),
+        good + "[[cell]]\nvertices = 642\ncount = 1\n[[cell]]\nkind = \"white\"\ncount = 0\n" +
+            "diameter = \"5 um\"\n"}) {
+    const Outcome outcome = run(none, "--force");
+    EXPECT_EQ(outcome.code, 0) << none << outcome.error;
+    EXPECT_EQ(run_file("case.toml", "--resume").code, 0);
+  }
+}
+
+TEST_F(BadInput, CasesThatAreNoFiles) {
+  shell("mkfifo pipe.toml; truncate -s 20M large.toml");
+  for (const char* name : {"pipe.toml", "/dev/zero"})
+    expect_one_line(run_file(name), ": cannot be read; a readable TOML file is expected");
+  expect_one_line(run_file("large.toml"), ": has more than 10 MB; a TOML file is expected");
+}
+
+TEST_F(BadInput, OutputThatCannotBe) {
+  shell("ln -s loop loop");
+  for (const std::string& out : {std::string("loop"), std::string(300, 'x'),
+                                 std::string("case.toml/run"), std::string("case.toml")}) {
+    std::ofstream(directory_ / "case.toml") << good;
+    expect_one_line(shell(HEMOMAG_BINARY " run case.toml --out " + out), "accepted");
+  }
+}
+
+TEST_F(BadInput, InstructionsThatAreNone) {
+  std::ofstream(directory_ / "case.toml") << good;
+  expect_one_line(shell("HEMOMAG_SIMD=foo " HEMOMAG_BINARY " run case.toml --out result"),
+                  "HEMOMAG_SIMD=foo: is unknown; accepted: sse2, avx2, avx512");
+}
+
+TEST_F(BadInput, ATableOfAnyNameWithAByteOrderMarkIsGood) {
+  std::ofstream table(directory_ / "B.my $x #1 table");
+  table << "\xEF\xBB\xBFx_m,y_m,z_m,Bx_T,By_T,Bz_T\n";
+  for (int k = 0; k < 64; ++k)
+    table << k % 4 * 3e-6 << "," << k / 4 % 4 * 3e-6 << "," << k / 16 * 3e-6 << ",0,0,0.05\n";
+  table.close();
+  const Outcome outcome = run(field_with("field = \"table\"\nfile = \"B.my $x #1 table\"\n"));
+  EXPECT_EQ(outcome.code, 0) << outcome.error;
+  EXPECT_EQ(run_file("case.toml", "--resume").code, 0);
+}
+
 TEST_F(BadInput, GoodFields) {
   for (const std::string& lines :
        {block, rod, coil, coil + "pair = \"opposite\"\ndistance = \"1 mm\"\nturns = 3\n",
@@ -645,8 +735,8 @@ TEST_F(BadInput, WhatCannotWorkIsRefusedByTheCard) {
 
 TEST_F(BadInput, TooManyCells) {
   refused(changed("[[carrier]]",
-                  "[[cell]]\nvertices = 642\ncount = 9\nplacement = \"grid\"\n[[carrier]]"),
-          "case.toml:12:13: cell.placement:", "of 9 cells");
+                  "[[cell]]\nvertices = 642\ncount = 3\nplacement = \"grid\"\n[[carrier]]"),
+          "case.toml:12:13: cell.placement:", "of 3 cells");
 }
 
 TEST_F(BadInput, Packing) {
@@ -664,8 +754,8 @@ TEST_F(BadInput, Packing) {
   std::ofstream(directory_ / "packed.data") << "LAMMPS data file\n\n12 atoms\n";
   refused(with(few + "{ file = \"packed.data\" }"), at,
           "line 1: 'LAMMPS' where 'hemomag:' must be");
-  refused(with("[[cell]]\nvertices = 200\ncount = 9\nplacement = \"compress\""), at,
-          "9 cells make a hematocrit of 1.6");
+  refused(with("[[cell]]\nvertices = 200\ncount = 9\nplacement = \"compress\""),
+          "case.toml:9:1: cell:", "a hematocrit up to 0.6");
   refused(with(few + "\"compress\"\n" + few + "\"random\""),
           "case.toml:16:13: cell.1.placement:", "differs from another [[cell]]");
   refused(with(few + "\"compress\"\n[[cell]]\nvertices = 200\ncount = 1"),

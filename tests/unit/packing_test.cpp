@@ -268,7 +268,7 @@ TEST(PackingErrors, SayWhereAndWhatIsAccepted) {
     }
   };
   refused({"cell.count=12"}, "12 cells make a hematocrit of 0.855; accepted: at most 0.6");
-  refused({"cell.count=4", "contact.cell_sigma=6 um"}, "failed: packing drew an edge");
+  refused({"cell.count=4", "contact.cell_sigma=5 um"}, "failed: packing drew an edge");
   refused({"channel.boundary=periodic"}, "\"grow\"");
   refused({"cell.placement={file=\"nowhere.data\"}"}, "cannot be read");
   refused({"cell.placement={files=\"nowhere.data\"}"}, "{ file = ");
