@@ -174,10 +174,10 @@ TEST(MeshMap, IsExactAtRestAndUnderARigidMotion) {
   }
 }
 
-TEST(Packing, OfNoCellsIsEmpty) {
+TEST(Packing, OfNoCellsIsNone) {
   const auto s = case_::place(small({"cell.count=0"}));
   EXPECT_TRUE(s.cells.empty());
-  EXPECT_EQ(s.packing->hematocrit, 0);
+  EXPECT_FALSE(s.packing.has_value());
 }
 
 class PackedFile : public testing::Test {
