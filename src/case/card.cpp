@@ -9,6 +9,7 @@
 
 #include "case/external_field.hpp"
 #include "case/lattice_units.hpp"
+#include "case/packing.hpp"
 #include "case/script.hpp"
 #include "lammps/fix_hemo_drag.h"
 #include "magnetic/clearance.hpp"
@@ -29,8 +30,6 @@ namespace {
 
 /// Share of the largest gradient from which div B or curl B is noted: a smooth table has less.
 constexpr double noted_violation = 0.01;
-
-constexpr double densest = 0.6;  // hematocrit
 
 /// Small is fine, then doubtful, then refused.
 Verdict below(double value, double fine, double refused) {
@@ -150,12 +149,12 @@ private:
     const double hematocrit = count * model.volume / fluid_volume(c_);
     const bool rounded_away = count == 0 && !cell.count;
     const double one = model.volume / fluid_volume(c_);  // to which a hematocrit is rounded
-    const bool too_dense = hematocrit > densest + one / 2 && fits_into_box(model);
+    const bool too_dense = hematocrit > largest_hematocrit + one / 2 && fits_into_box(model);
     add("cells",
         text("%d%s of %d vertices, hematocrit %.4g", count, kind, cell.vertices, hematocrit),
         rounded_away || too_dense ? Verdict::refused : Verdict::fine,
         rounded_away ? text("a hematocrit from %.3g, which is one cell, or count = 0", one)
-                     : text("a hematocrit up to %g", densest));
+                     : text("a hematocrit up to %g", largest_hematocrit));
     size_of_cell(model);
     if (cell.surface) mesh_quality(model);
     if (cell.stress_free == StressFree::sphere) prestress(cell, model);

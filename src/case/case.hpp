@@ -92,7 +92,7 @@ struct Carrier {
   double susceptibility = 0.4;
   double magnetic_fraction = 0.6;
   double saturation_magnetisation = 0;  ///< [A/m] of the magnetic part; 0: linear
-  std::optional<double> density;  ///< [kg/m3]; without it there is no inertia
+  std::optional<double> density;        ///< [kg/m3]; without it there is no inertia
   bool feedback = true;
 };
 

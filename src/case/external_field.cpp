@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 
 #include "case/lattice_units.hpp"
 #include "magnetic/clearance.hpp"

@@ -20,12 +20,11 @@ namespace hemomag::case_ {
 namespace {
 
 constexpr double um = 1e-6, pN = 1e-12;
-constexpr double wall_gap = 0.3;            // of vertices from walls, as with every placement
-constexpr double loose_hematocrit = 0.15;   // that random placement reaches at once
-constexpr double largest_hematocrit = 0.6;  // that the case file accepts
-constexpr double least_stretch = 2;         // the paper's "about two times" the channel
-constexpr double start_scale = 0.5;         // of growing cells
-constexpr double plate_move = 0.01;         // um a step
+constexpr double wall_gap = 0.3;           // of vertices from walls, as with every placement
+constexpr double loose_hematocrit = 0.15;  // that random placement reaches at once
+constexpr double least_stretch = 2;        // the paper's "about two times" the channel
+constexpr double start_scale = 0.5;        // of growing cells
+constexpr double plate_move = 0.01;        // um a step
 constexpr int growth_steps = 1000;
 constexpr double damping = 0.5;          // per unit of the crowd's time
 constexpr double force_at_rest = 0.02;   // pN on a vertex: kBT over 0.2 um

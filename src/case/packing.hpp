@@ -14,6 +14,9 @@ struct PackedCells {
   PackingReport report;
 };
 
+/// That packing is known to reach; more is refused, but for the rounding to whole cells.
+inline constexpr double largest_hematocrit = 0.6;
+
 /// Vertices of the mesh with which cells of more are packed before they are carried to their own.
 inline constexpr int packing_vertices = 642;
 

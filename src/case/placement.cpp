@@ -299,9 +299,9 @@ void place_carriers(System& system, const Packing& packing, const Case& c, std::
   const bool worm = carrier.kind == CarrierKind::worm;
   const int beads = worm ? carrier.beads : 1;
   Bins others(box, 2 * carrier.radius);
-  long tries = 0;
-  for (int placed = 0; placed < carrier.count; ++tries) {
-    if (tries >= most_tries)
+  long failures = 0;  // in a row
+  for (int placed = 0; placed < carrier.count;) {
+    if (failures >= most_tries)
       throw Error(position(c, entry_path("carrier", entry, c.carriers.size()) + ".count") + ": " +
                   std::to_string(placed) + " of " + std::to_string(carrier.count) +
                   " carriers found a place outside the cells; accepted: fewer");
@@ -317,11 +317,14 @@ void place_carriers(System& system, const Packing& packing, const Case& c, std::
     const bool fits = std::all_of(chain.begin(), chain.end(), [&](const Vec3& p) {
       return packing.carrier_fits(p) && !(c.magnetic.dipoles && others.any_near(p));
     });
-    if (!fits) continue;
+    if (!fits) {
+      ++failures;
+      continue;
+    }
+    failures = 0;
     for (const Vec3& p : chain) others.add(p);
     system.carriers.push_back({entry, std::move(chain)});
     ++placed;
-    tries = -1;  // in a row
   }
 }
 

@@ -3,11 +3,8 @@
 #include <cmath>
 #include <csignal>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
-#include <map>
 #include <memory>
 
 #include <nlohmann/json.hpp>
@@ -17,11 +14,9 @@
 #include "case/card.hpp"
 #include "case/case_file.hpp"
 #include "case/cells_data.hpp"
-#include "case/external_field.hpp"
 #include "case/lattice_units.hpp"
 #include "case/measured_layer.hpp"
 #include "case/pack.hpp"
-#include "case/packed_file.hpp"
 #include "case/profile_summary.hpp"
 #include "case/run_directory.hpp"
 #include "case/run_lock.hpp"
